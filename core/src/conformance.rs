@@ -1,0 +1,235 @@
+//! The laws of [`Accumulate`], [`Merge`] and [`Moments`] as public functions, to be run on every
+//! implementor: here, by the fuzz targets, and by users on accumulators and lanes of their own.
+//!
+//! Each law reads an accumulator through an estimator, and returns which part of it is broken.
+//!
+//! ```
+//! use ratiocv_core::{conformance, moments::Comoments, Draw, Integrals, Tin};
+//! let draws: Vec<_> = (0..100).map(|i| Draw::new(f64::from(i % 7), 1.0 + f64::from(i % 5))).collect();
+//! conformance::all(&Tin, |_| Comoments::<f64>::default(), &draws, &Integrals::new([3.0]), 1e-12)?;
+//! # Ok::<(), &'static str>(())
+//! ```
+
+use crate::draw::Draw;
+use crate::estimate::Estimate;
+use crate::estimator::Estimator;
+use crate::flags::Flags;
+use crate::lanes::{Lanes, Scalar};
+use crate::moments::{Accumulate, Merge, Moments};
+use crate::problem::Integrals;
+
+/// A broken law.
+pub type Law = Result<(), &'static str>;
+
+/// An accumulator of draws with one auxiliary that estimators can read.
+pub trait Accumulator<V: Lanes>: Accumulate<Draw<V>> + Merge + Moments<Lanes = V> + Clone {}
+
+impl<V: Lanes, M: Accumulate<Draw<V>> + Merge + Moments<Lanes = V> + Clone> Accumulator<V> for M {}
+
+/// Every law on `draws`, whose estimates may move by `tolerance` (relative) with the way that they
+/// are split.
+///
+/// # Errors
+/// The first law that does not hold.
+pub fn all<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
+    estimator: &E,
+    empty: impl Fn(&Integrals<V>) -> M,
+    draws: &[Draw<V>],
+    integrals: &Integrals<V>,
+    tolerance: f64,
+) -> Law {
+    same_calls_same_bits(estimator, &empty, draws, integrals)?;
+    empty_is_identity(estimator, &empty, draws, integrals)?;
+    let at = draws.len() / 3;
+    whole_is_split(estimator, &empty, draws, at, integrals, tolerance)?;
+    bad_channel_is_alone(estimator, &empty, draws, V::LANES / 2, integrals)?;
+    scales_exactly(estimator, &empty, draws, integrals)
+}
+
+/// `draws`, added one by one.
+fn one_by_one<V: Lanes, M: Accumulator<V>>(mut moments: M, draws: &[Draw<V>]) -> M {
+    for draw in draws {
+        moments.add(*draw);
+    }
+    moments
+}
+
+/// `draws`, added at once.
+fn at_once<V: Lanes, M: Accumulator<V>>(mut moments: M, draws: &[Draw<V>]) -> M {
+    moments.add_batch(draws);
+    moments
+}
+
+fn read<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
+    estimator: &E,
+    moments: &M,
+    integrals: &Integrals<V>,
+) -> Estimate<V> {
+    estimator.estimate_anyway(moments, integrals)
+}
+
+/// Whether two estimates of a channel are the same bits (any NaN is the same as any other).
+fn same_bits<V: Lanes>(a: &Estimate<V>, b: &Estimate<V>, channel: usize) -> bool {
+    let (a, b) = (a.channel(channel), b.channel(channel));
+    let same = |a: f64, b: f64| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
+    same(a.value, b.value) && same(a.std_error, b.std_error) && a.flags == b.flags
+}
+
+fn same_everywhere<V: Lanes>(a: &Estimate<V>, b: &Estimate<V>, broken: &'static str) -> Law {
+    if (0..V::LANES).all(|channel| same_bits(a, b, channel)) { Ok(()) } else { Err(broken) }
+}
+
+/// Whether two estimates of a channel agree to `tolerance`, relative to the value.
+fn close<V: Lanes>(a: &Estimate<V>, b: &Estimate<V>, channel: usize, tolerance: f64) -> bool {
+    let (a, b) = (a.channel(channel), b.channel(channel));
+    let near = |a: f64, b: f64, allowed: f64| (a.is_nan() && b.is_nan()) || a == b || (a - b).abs() <= allowed;
+    let rounding = tolerance * a.value.abs().max(b.value.abs());
+    near(a.value, b.value, rounding)
+        // An error bar at the level of rounding may move by more than its own size.
+        && near(a.std_error, b.std_error, libm::sqrt(tolerance) * a.std_error.max(b.std_error) + rounding)
+}
+
+/// The same calls give the same bits.
+///
+/// # Errors
+/// If they do not.
+pub fn same_calls_same_bits<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
+    estimator: &E,
+    empty: &impl Fn(&Integrals<V>) -> M,
+    draws: &[Draw<V>],
+    integrals: &Integrals<V>,
+) -> Law {
+    let run = |add: fn(M, &[Draw<V>]) -> M| read(estimator, &add(empty(integrals), draws), integrals);
+    same_everywhere(&run(one_by_one), &run(one_by_one), "add: the same calls gave other bits")?;
+    same_everywhere(&run(at_once), &run(at_once), "add_batch: the same calls gave other bits")
+}
+
+/// Merging an empty accumulator, on either side, changes no bit, and two empty ones stay empty.
+///
+/// # Errors
+/// If it does, or they do not.
+pub fn empty_is_identity<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
+    estimator: &E,
+    empty: &impl Fn(&Integrals<V>) -> M,
+    draws: &[Draw<V>],
+    integrals: &Integrals<V>,
+) -> Law {
+    let full = one_by_one(empty(integrals), draws);
+    let alone = read(estimator, &full, integrals);
+    let (mut left, mut right) = (empty(integrals), full.clone());
+    left.merge(&full);
+    right.merge(&empty(integrals));
+    same_everywhere(&alone, &read(estimator, &left, integrals), "an empty accumulator to the left changed bits")?;
+    same_everywhere(&alone, &read(estimator, &right, integrals), "an empty accumulator to the right changed bits")?;
+    // And an accumulator that goes on goes on the same.
+    let (left, right) = (one_by_one(left, draws), one_by_one(right, draws));
+    same_everywhere(
+        &read(estimator, &left, integrals),
+        &read(estimator, &right, integrals),
+        "an empty merge changed what came after",
+    )?;
+    let mut nothing = empty(integrals);
+    nothing.merge(&empty(integrals));
+    if nothing.count() == 0 { Ok(()) } else { Err("two empty accumulators merged into something") }
+}
+
+/// The whole is its parts, split at `at` and merged, or added in other calls, up to `tolerance`.
+///
+/// # Errors
+/// If it is not.
+pub fn whole_is_split<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
+    estimator: &E,
+    empty: &impl Fn(&Integrals<V>) -> M,
+    draws: &[Draw<V>],
+    at: usize,
+    integrals: &Integrals<V>,
+    tolerance: f64,
+) -> Law {
+    let (earlier, later) = draws.split_at(at.min(draws.len()));
+    let mut merged = one_by_one(empty(integrals), earlier);
+    merged.merge(&at_once(empty(integrals), later));
+    let batches = at_once(at_once(empty(integrals), earlier), later);
+    let whole = one_by_one(empty(integrals), draws);
+    for parts in [&merged, &batches] {
+        if parts.count() != whole.count() {
+            return Err("a split changed the count");
+        }
+        let (whole, parts) = (read(estimator, &whole, integrals), read(estimator, parts, integrals));
+        if !(0..V::LANES).all(|channel| close(&whole, &parts, channel, tolerance)) {
+            return Err("a split changed the estimate by more than the tolerance");
+        }
+    }
+    Ok(())
+}
+
+/// A channel that receives NaN leaves every other channel's bits alone, and says so itself.
+///
+/// # Errors
+/// If it does not.
+pub fn bad_channel_is_alone<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
+    estimator: &E,
+    empty: &impl Fn(&Integrals<V>) -> M,
+    draws: &[Draw<V>],
+    bad: usize,
+    integrals: &Integrals<V>,
+) -> Law {
+    let poison = |x: V| V::from_fn(|i| if i == bad { V::Scalar::from_f64(f64::NAN) } else { x.get(i) });
+    for add in [one_by_one::<V, M>, at_once::<V, M>] {
+        let clean = read(estimator, &add(empty(integrals), draws), integrals);
+        for position in [0, draws.len() / 2, draws.len().saturating_sub(1)] {
+            let (before, rest) = draws.split_at(position.min(draws.len()));
+            let Some((draw, after)) = rest.split_first() else { return Ok(()) };
+            let poisoned = Draw::new(poison(draw.f), poison(draw.h[0]));
+            // Not through one slice, since there is no place to build it; the clean run, likewise.
+            let run = |middle| read(estimator, &add(add(add(empty(integrals), before), &[middle]), after), integrals);
+            let (clean_here, dirty) = (run(*draw), run(poisoned));
+            for channel in (0..V::LANES).filter(|channel| *channel != bad) {
+                if !same_bits(&clean_here, &dirty, channel) {
+                    return Err("a bad channel changed another one");
+                }
+            }
+            if !dirty.flags(bad).contains(Flags::NONFINITE) {
+                return Err("a NaN raised no flag");
+            }
+        }
+        if draws.is_empty() && !clean.flags(0).contains(Flags::EMPTY) {
+            return Err("no draws, but no EMPTY flag");
+        }
+    }
+    Ok(())
+}
+
+/// Scaling f by a power of two scales value and error exactly; scaling h and H changes no bit.
+///
+/// # Errors
+/// If it does not.
+pub fn scales_exactly<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
+    estimator: &E,
+    empty: &impl Fn(&Integrals<V>) -> M,
+    draws: &[Draw<V>],
+    integrals: &Integrals<V>,
+) -> Law {
+    let factor = V::splat(V::Scalar::from_f64(0.125));
+    let run = |f: V, h: V| {
+        let integrals = &Integrals::new([integrals.0[0] * h.widen()]);
+        let mut moments = empty(integrals);
+        for draw in draws {
+            moments.add(Draw::new(draw.f * f, draw.h[0] * h));
+        }
+        read(estimator, &moments, integrals)
+    };
+    let alone = run(V::ONE, V::ONE);
+    let (f, h) = (run(factor, V::ONE), run(V::ONE, factor));
+    for channel in 0..V::LANES {
+        let (alone, f, h) = (alone.channel(channel), f.channel(channel), h.channel(channel));
+        let eighth = |x: f64, y: f64| x * 0.125 == y || (x.is_nan() && y.is_nan());
+        if !(eighth(alone.value, f.value) && eighth(alone.std_error, f.std_error)) {
+            return Err("scaling f did not scale the estimate exactly");
+        }
+        let same = |x: f64, y: f64| x == y || (x.is_nan() && y.is_nan());
+        if !(same(alone.value, h.value) && same(alone.std_error, h.std_error)) {
+            return Err("scaling h and H changed the estimate");
+        }
+    }
+    Ok(())
+}

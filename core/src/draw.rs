@@ -1,0 +1,57 @@
+//! What a renderer has in its hands after one sample.
+
+use crate::lanes::Lanes;
+
+/// One draw X ~ g, element-wise over the channels: `f` = f(X)/g(X) and, for each of the `K`
+/// auxiliaries, `h[k]` = h_k(X)/g(X). Both are already divided by the pdf.
+///
+/// ```
+/// use ratiocv_core::{Draw, Spectrum};
+/// // f/pdf, and p_j/pdf: how much likelier each channel's own technique would have been.
+/// let draw = Draw::new(Spectrum([0.9_f32, 0.4, 0.1]), Spectrum([1.5, 0.8, 0.7]));
+/// assert_eq!(draw.h[0][2], 0.7);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Draw<V, const K: usize = 1> {
+    /// The integrand over the pdf.
+    pub f: V,
+    /// Each auxiliary over the pdf.
+    pub h: [V; K],
+}
+
+impl<V> Draw<V> {
+    /// A draw with one auxiliary.
+    #[inline(always)]
+    pub const fn new(f: V, h: V) -> Self {
+        Self { f, h: [h] }
+    }
+}
+
+impl<V: Lanes, const K: usize> Draw<V, K> {
+    /// 0 everywhere.
+    pub const ZERO: Self = Self { f: V::ZERO, h: [V::ZERO; K] };
+
+    /// The same draw in `f64` lanes, exactly.
+    #[inline(always)]
+    pub fn widen(&self) -> Draw<V::Wide, K> {
+        self.map(V::widen)
+    }
+
+    /// `change` of every entry.
+    #[inline(always)]
+    pub(crate) fn map<U>(self, mut change: impl FnMut(V) -> U) -> Draw<U, K> {
+        Draw { f: change(self.f), h: self.h.map(change) }
+    }
+
+    /// `combine` of the entries of two draws.
+    #[inline(always)]
+    pub(crate) fn zip(self, other: Self, mut combine: impl FnMut(V, V) -> V) -> Self {
+        Self { f: combine(self.f, other.f), h: core::array::from_fn(|k| combine(self.h[k], other.h[k])) }
+    }
+
+    /// The draw with auxiliary `k` alone; panics if there is no such auxiliary.
+    #[inline(always)]
+    pub fn auxiliary(&self, k: usize) -> Draw<V> {
+        Draw::new(self.f, self.h[k])
+    }
+}

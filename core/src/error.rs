@@ -1,0 +1,88 @@
+//! What can be wrong with a call. What can be wrong with the data is a flag, per channel.
+
+use core::fmt;
+
+/// Why there is no estimate; `Display` says what to do about it.
+///
+/// ```
+/// use ratiocv_core::{moments::Comoments, Beale, Error, Estimator, Integrals};
+/// let error = Beale.estimate(&Comoments::<f64>::default(), &Integrals::ONE).unwrap_err();
+/// assert_eq!(error, Error::TooFewDraws { estimator: "beale", needed: 2, got: 0 });
+/// assert_eq!(
+///     error.to_string(),
+///     "beale needs at least 2 draws and has 0: add draws, or use estimate_anyway for a flagged fall-back"
+/// );
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// The estimator is not defined for so few draws.
+    TooFewDraws {
+        /// The estimator's id.
+        estimator: &'static str,
+        /// The least number it is defined for.
+        needed: u64,
+        /// The number of draws.
+        got: u64,
+    },
+    /// A defensive weight outside [0, 1), or NaN.
+    Weight(f64),
+    /// The ratios f/h were accumulated on an auxiliary other than the one of the estimate.
+    OtherAuxiliary {
+        /// The estimator's id.
+        estimator: &'static str,
+        /// The channel.
+        channel: usize,
+    },
+    /// Two lengths that must agree do not.
+    LengthMismatch {
+        /// What is too short or too long.
+        what: &'static str,
+        /// The length that it should have.
+        expected: usize,
+        /// The length that it has.
+        got: usize,
+    },
+    /// A flag was raised, and the caller asked for none ([`Estimate::strict`](crate::Estimate::strict)).
+    Flagged {
+        /// The first channel with a flag.
+        channel: usize,
+        /// Its flags.
+        flags: crate::Flags,
+    },
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooFewDraws { estimator, needed, got } => write!(
+                f,
+                "{estimator} needs at least {needed} draws and has {got}: \
+                 add draws, or use estimate_anyway for a flagged fall-back"
+            ),
+            Self::Weight(weight) => write!(
+                f,
+                "the defensive weight is {weight} and must be at least 0 and below 1: 0.01 is the usual choice"
+            ),
+            Self::OtherAuxiliary { estimator, channel } => write!(
+                f,
+                "{estimator}, channel {channel}: the ratios f/h were accumulated for another defensive weight or known \
+                 integral: make the accumulator with the estimator's own error_bar(&integrals)"
+            ),
+            Self::LengthMismatch { what, expected, got } => {
+                write!(f, "{what} has length {got} and needs {expected}: give one entry per draw and channel")
+            }
+            Self::Flagged { channel, flags } => write!(
+                f,
+                "channel {channel} raised {flags}: see Flags for each remedy, or take the value without strict()"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for Error {}
+
+/// `weight`, if it is a defensive weight.
+pub(crate) fn weight_in_range(weight: f64) -> Result<f64, Error> {
+    if (0.0..1.0).contains(&weight) { Ok(weight) } else { Err(Error::Weight(weight)) }
+}

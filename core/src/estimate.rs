@@ -1,0 +1,77 @@
+//! What comes out: value, standard error, flags, per channel.
+
+use crate::error::Error;
+use crate::flags::Flags;
+use crate::lanes::{Lanes, PerLane};
+
+/// The estimate of one channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ChannelEstimate {
+    /// The estimate of F.
+    pub value: f64,
+    /// Its standard error; NaN where unknown, never negative.
+    pub std_error: f64,
+    /// Remarks.
+    pub flags: Flags,
+}
+
+/// An estimate of F = ∫f, element-wise over the channels of `V`.
+///
+/// `std_error` is NaN wherever it is unknown: moments of the value tier, one draw, overflow.
+///
+/// ```
+/// use ratiocv_core::{moments::{Accumulate, Comoments}, Draw, Estimator, Flags, Integrals, RatioOfMeans, Spectrum};
+/// let mut pixel = Comoments::<Spectrum<f64, 2>>::default();
+/// pixel.add(Draw::new(Spectrum([1.0, 1.0]), Spectrum([1.0, 0.0])));
+/// pixel.add(Draw::new(Spectrum([2.0, 3.0]), Spectrum([2.0, 0.0])));
+/// let estimate = RatioOfMeans.estimate(&pixel, &Integrals::new([Spectrum([1.5, 1.0])]))?;
+/// assert_eq!(estimate.value[0], 1.5);
+/// assert_eq!((estimate.value[1], estimate.flags(1)), (2.0, Flags::DENOM_ZERO)); // the plain mean
+/// assert!(estimate.strict().is_err());
+/// # Ok::<(), ratiocv_core::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Estimate<V: Lanes> {
+    /// The estimate of F.
+    pub value: V::Wide,
+    /// Its standard error.
+    pub std_error: V::Wide,
+    flags: V::PerLane<Flags>,
+}
+
+impl<V: Lanes> Estimate<V> {
+    /// Puts an estimate together from its channels.
+    pub(crate) fn from_channels(mut channel: impl FnMut(usize) -> ChannelEstimate) -> Self {
+        let channels = V::PerLane::<ChannelEstimate>::from_fn(&mut channel);
+        Self {
+            value: V::Wide::from_fn(|i| channels.get(i).value),
+            std_error: V::Wide::from_fn(|i| channels.get(i).std_error),
+            flags: PerLane::from_fn(|i| channels.get(i).flags),
+        }
+    }
+
+    /// The flags of channel `channel`; panics if there is no such channel.
+    pub fn flags(&self, channel: usize) -> Flags {
+        self.flags.get(channel)
+    }
+
+    /// Everything about channel `channel`; panics if there is no such channel.
+    pub fn channel(&self, channel: usize) -> ChannelEstimate {
+        ChannelEstimate {
+            value: self.value.get(channel),
+            std_error: self.std_error.get(channel),
+            flags: self.flags(channel),
+        }
+    }
+
+    /// The same estimate, or an error if any channel raised any flag.
+    ///
+    /// # Errors
+    /// [`Error::Flagged`], with the first such channel.
+    pub fn strict(self) -> Result<Self, Error> {
+        match (0..V::LANES).find(|channel| !self.flags(*channel).is_empty()) {
+            None => Ok(self),
+            Some(channel) => Err(Error::Flagged { channel, flags: self.flags(channel) }),
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! The part of an estimate that is the same for all estimators: fall-backs, error bar, flags.
+
+use crate::estimate::ChannelEstimate;
+use crate::estimator::Sample;
+use crate::flags::Flags;
+use crate::moments::{HasMeans, Spread, Tails};
+use crate::planted::planted;
+use crate::scaled::quotient_times;
+
+/// What there is to say about one channel before any formula is applied.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Remarks {
+    count: u64,
+    epsilon: f64,
+    mean_f: f64,
+    mean_h: f64,
+    spread: Option<Spread>,
+    tails: Option<Tails>,
+    flags: Flags,
+}
+
+impl Remarks {
+    /// Of an estimator that reads no auxiliary.
+    pub(super) fn without_auxiliary<S: HasMeans<K>, const K: usize>(sample: &Sample<'_, S>) -> Self {
+        // f/f: an auxiliary about which there is nothing to remark.
+        let mean_f = sample.moments.means(sample.count).f;
+        Self::new(sample, mean_f, if mean_f == 0.0 { 0.0 } else { 1.0 })
+    }
+
+    /// Of an estimator that reads ratios f/h alone, h with the integral `integral`.
+    pub(super) fn with_ratios<S: HasMeans>(sample: &Sample<'_, S>, integral: f64) -> Self {
+        let mut remarks = Self::without_auxiliary(sample);
+        remarks.flags |= bad(integral);
+        remarks
+    }
+
+    /// Of an estimator that reads the auxiliary whose integral is `integral`.
+    pub(super) fn with_auxiliary<S: HasMeans>(sample: &Sample<'_, S>, integral: f64) -> Self {
+        let means = sample.moments.means(sample.count);
+        let mut remarks = Self::new(sample, means.f, means.h[0]);
+        remarks.judge_auxiliary(integral);
+        remarks
+    }
+
+    fn new<S: HasMeans<K>, const K: usize>(sample: &Sample<'_, S>, mean_f: f64, mean_h: f64) -> Self {
+        let (spread, tails) = (sample.moments.spread(), sample.moments.tails());
+        let mut flags = Flags::when(sample.count == 0, Flags::EMPTY)
+            | Flags::when(sample.count == 1, Flags::ONE_SAMPLE)
+            | Flags::when(!mean_f.is_finite() || mean_h.is_infinite(), Flags::NONFINITE);
+        if sample.count > 0 && mean_f == 0.0 {
+            // Zero draws, or draws that cancel? Only the spread can tell, or an auxiliary that is
+            // zero as well.
+            let unseen = spread.map_or(mean_h == 0.0, |spread| spread.ff() == 0.0);
+            flags |= Flags::when(unseen, Flags::NO_SUPPORT);
+        }
+        if let Some(Spread { ee, eh, hh, .. }) = spread.filter(|_| mean_f.is_finite() && mean_h.is_finite()) {
+            let overflow = ee.is_infinite() || eh.is_infinite() || hh.is_infinite();
+            flags |= Flags::when(overflow, Flags::OVERFLOW);
+            flags |= Flags::when(!overflow && (ee.is_nan() || hh.is_nan()), Flags::UNDERFLOW);
+        }
+        if let (Some(tails), Some(spread)) = (tails, spread) {
+            let squares = spread.ff() + sample.count as f64 * mean_f * mean_f;
+            let heavy = sample.count >= 100 && tails.max_f * tails.max_f > 0.1 * squares;
+            flags |= Flags::when(heavy, Flags::HEAVY_TAIL);
+        }
+        Self { count: sample.count, epsilon: sample.epsilon, mean_f, mean_h, spread, tails, flags }
+    }
+
+    fn judge_auxiliary(&mut self, integral: f64) {
+        let (n, mean) = (self.count as f64, self.mean_h);
+        self.flags |= bad(integral) | Flags::when(self.count > 0 && !mean.is_finite(), Flags::NONFINITE);
+        if let Some(tails) = self.tails {
+            // κ = Σ|h|/|Σh|: fewer than four digits left?
+            let ill = self.epsilon * tails.abs_h > 1e-4 * (n * mean).abs();
+            self.flags |= Flags::when(ill && tails.abs_h > 0.0, Flags::DENOM_ILL);
+        }
+        let Some(Spread { hh, .. }) = self.spread else { return };
+        if self.count < 2 || mean == 0.0 || !hh.is_finite() {
+            return;
+        }
+        let error = libm::sqrt(hh / (n - 1.0) / n);
+        let ess = n / (1.0 + hh / n / mean / mean);
+        let off = (mean - integral).abs();
+        let rounding = 8.0 * self.epsilon * (mean.abs() + integral.abs());
+        self.flags |= Flags::when(mean.abs() < 5.0 * error, Flags::DENOM_ILL)
+            | Flags::when(ess < (n / 10.0).min(100.0), Flags::LOW_ESS)
+            | Flags::when(
+                integral.is_finite() && off > chance_limit(n - 1.0) * error + rounding,
+                Flags::AUX_MISMATCH,
+            );
+    }
+
+    /// The flags so far.
+    pub(super) fn flags(&self) -> Flags {
+        self.flags
+    }
+
+    /// The plain mean, with its own error bar: what an undefined result falls back to.
+    pub(super) fn plain(&self, why: Flags) -> ChannelEstimate {
+        self.finish(self.mean_f, 0.0, why)
+    }
+
+    /// H·ȳ/x̄, or the plain mean where that is undefined.
+    pub(super) fn ratio_of_means(&self, integral: f64) -> ChannelEstimate {
+        if self.flags.fell_back() || self.mean_h == 0.0 {
+            return self.plain(self.zero_denominator());
+        }
+        self.value(quotient_times(self.mean_f, self.mean_h, integral), self.mean_f / self.mean_h)
+    }
+
+    /// DENOM_ZERO, unless the flags already say why there is no estimate.
+    pub(super) fn zero_denominator(&self) -> Flags {
+        Flags::when(!self.flags.fell_back() && !self.flags.contains(Flags::NO_SUPPORT), Flags::DENOM_ZERO)
+    }
+
+    /// `value`, whose error to first order is that of y − c·x.
+    pub(super) fn value(&self, value: f64, c: f64) -> ChannelEstimate {
+        let value = value + 0.0; // −0 becomes 0
+        let negative = Flags::when(value < 0.0 && self.mean_f >= 0.0, Flags::NEGATIVE);
+        self.finish(value, c, negative)
+    }
+
+    /// `value`, whose variance is `variance_of_mean`.
+    pub(super) fn value_with_variance(&self, value: f64, variance_of_mean: f64) -> ChannelEstimate {
+        let estimate = self.value(value, 0.0);
+        let std_error = if self.known_error() { libm::sqrt(variance_of_mean) } else { f64::NAN };
+        ChannelEstimate { std_error, ..estimate }
+    }
+
+    fn known_error(&self) -> bool {
+        self.count >= 2 && !self.flags.contains(Flags::NO_SUPPORT)
+    }
+
+    fn finish(&self, value: f64, c: f64, flags: Flags) -> ChannelEstimate {
+        let mut flags = self.flags | flags;
+        if self.count == 0 || !value.is_finite() {
+            let value = if self.count == 0 { f64::NAN } else { value };
+            // A finite mean that the formula drove out of range is undefined too.
+            if self.count > 0 && self.mean_f.is_finite() && value != self.mean_f {
+                return self.finish(self.mean_f, 0.0, flags | Flags::NONFINITE);
+            }
+            return ChannelEstimate { value: f64::NAN, std_error: f64::NAN, flags };
+        }
+        let std_error = match self.spread.filter(|_| self.known_error()) {
+            None => f64::NAN,
+            Some(spread) => {
+                let n = self.count as f64;
+                let squares = spread.about(c);
+                // What rounding of the draws alone would leave of draws that are exactly
+                // proportional.
+                let scale = 16.0 * self.epsilon;
+                let floor = scale * scale * (spread.ee + spread.slope * spread.slope * spread.hh);
+                let below = squares > 0.0 && squares < floor;
+                flags |= Flags::when(below, Flags::ROUNDING);
+                let variance = if below { floor } else { squares } / planted!("std_error_divisor": n - 1.0, n);
+                let error = libm::sqrt(variance / n);
+                if error.is_finite() { error } else { f64::NAN }
+            }
+        };
+        ChannelEstimate { value: value + 0.0, std_error, flags }
+    }
+}
+
+/// BAD_INTEGRAL, if it is.
+fn bad(integral: f64) -> Flags {
+    Flags::when(integral == 0.0 || !integral.is_finite(), Flags::BAD_INTEGRAL)
+}
+
+/// How many standard errors chance allows with `freedom` degrees of freedom: Student's quantile at
+/// the two-sided probability 2e-9 of six standard errors, by Wallace's approximation (1959),
+/// inverted; 6 for many draws, 7.0 for 64, and out of reach for two.
+fn chance_limit(freedom: f64) -> f64 {
+    let z = 6.0 * (8.0 * freedom + 3.0) / (8.0 * freedom + 1.0);
+    libm::sqrt(freedom * libm::expm1(z * z / freedom))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::chance_limit;
+
+    #[test]
+    fn chance_limits_are_students_quantiles() {
+        // scipy.stats.t.isf(9.865876450376946e-10, freedom), SciPy 1.17.1.
+        for (freedom, right) in [(7.0, 38.781), (15.0, 12.7052), (63.0, 7.003177), (1e6, 6.0000555)] {
+            let ours = chance_limit(freedom);
+            assert!((ours / right - 1.0).abs() <= 0.08, "{freedom}: {ours} for {right}");
+        }
+    }
+}

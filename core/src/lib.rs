@@ -1,0 +1,76 @@
+//! Ratio control variates: vector-valued Monte Carlo integration without the noise that the
+//! integrand shares with a function whose integral is known.
+//!
+//! When each draw yields f and an auxiliary h with the known integral H, H·mean(f)/mean(h) cancels,
+//! channel by channel, the noise that f and h have in common (Lu, Vicini, Chang, Li, *Vector-Valued
+//! Monte Carlo Integration Using Ratio Control Variates*, SIGGRAPH 2025). This crate is the
+//! estimators, their error bars and their predictions; it allocates nothing, contains no `unsafe`,
+//! and runs without `std`.
+//!
+//! A **draw** is f/pdf and h/pdf of one sample. An **accumulator** keeps the moments that an
+//! estimator reads. An **estimator** turns moments and known integrals into an **estimate**:
+//!
+//! ```
+//! use ratiocv_core::{moments::{Accumulate, Sums}, Draw, Estimator, Integrals, RatioOfMeans, Reads, Spectrum};
+//! // A renderer, one RGB pixel: f/pdf, and p_j/pdf (which integrates to 1) for each channel j.
+//! let trace = |i: usize| (Spectrum([0.2, 0.5, 0.1 * i as f32]), Spectrum([1.0_f32, 1.2, 0.2 * i as f32]));
+//! let mut pixel = Sums::<Spectrum<f32, 3>>::default();
+//! for i in 0..16 {
+//!     let (f, h) = trace(i);
+//!     pixel.add(Draw::new(f, h));
+//! }
+//! let rgb = RatioOfMeans.defensive(0.01)?.estimate(&pixel, &Integrals::ONE)?.value;
+//! assert!((rgb[2] - 0.5).abs() < 0.01); // f = h/2 there
+//! # Ok::<(), ratiocv_core::Error>(())
+//! ```
+//!
+//! To first order every estimator here is a difference control variate ȳ + c(H − x̄); they differ in
+//! the coefficient c that they imply:
+//!
+//! | estimator | c | bias | take it when |
+//! |---|---|---|---|
+//! | [`Plain`] | 0 | 0 | h does not help |
+//! | [`RatioOfMeans`] | R = F/H | O(1/N) | f ≈ R·h; many draws |
+//! | [`Quenouille`], [`Beale`], [`Tin`] | R | O(1/N²) | as above, few draws |
+//! | [`Mickey`] | R | 0 | as above, and bias is not allowed |
+//! | [`HartleyRoss`] | E\[f/h\] | 0 | f/h is nearly constant |
+//! | [`MeanOfRatios`] | – | does not vanish | never; kept for comparison |
+//!
+//! Each also runs on a [`Defensive`] auxiliary, which keeps denominators away from 0.
+//!
+//! # Features
+//! - `conformance`: the laws of the traits as public functions, to be run on implementors.
+#![no_std]
+#![forbid(unsafe_code)]
+
+#[cfg(any(test, planted_bugs))]
+extern crate std;
+
+#[cfg(feature = "conformance")]
+pub mod conformance;
+mod draw;
+mod error;
+mod estimate;
+mod estimator;
+mod flags;
+mod lanes;
+pub mod moments;
+mod planted;
+pub mod predict;
+mod problem;
+mod scaled;
+mod spectrum;
+
+pub use draw::Draw;
+pub use error::Error;
+pub use estimate::{ChannelEstimate, Estimate};
+pub use estimator::{
+    Beale, Defensive, Estimator, FallBackWhenIll, HartleyRoss, MeanOfRatios, Mickey, Mixed, Plain, Quenouille,
+    RatioOfMeans, Reads, Sample, Tin,
+};
+pub use flags::Flags;
+pub use lanes::{Lanes, PerLane, Scalar, Single};
+pub use problem::{
+    Auxiliaries, Auxiliary, Integrals, Integrand, Problem, Proposal, Uniform, UniformCube, WithIntegral, unit_interval,
+};
+pub use spectrum::Spectrum;

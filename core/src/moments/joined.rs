@@ -1,0 +1,260 @@
+//! Several kernels in one pass over the draws: one accumulator, one count, one block.
+
+use crate::moments::blocked::{Blocked, Kernel, State, Takes};
+use crate::moments::extremes::MayHaveTails;
+use crate::moments::read::{
+    Group, HasComoments, HasGroups, HasMeans, HasRatioMean, HasThirdMoments, Means, RatioMoments, Spread, Tails,
+    ThirdMoments,
+};
+
+/// Moments of several kinds side by side; each place is a kernel, or `()`, which takes no space and
+/// no time.
+///
+/// | place | capability | kernels |
+/// |---|---|---|
+/// | `B` | means, spread | `SumsBlock`, `ComomentsBlock`, `UnivariateBlock` of f |
+/// | `R` | mean of f/h | `UnivariateBlock` of the ratio, or an array of them, raw and defensive |
+/// | `G` | group means | `GroupsBlock` |
+/// | `E` | tails (the diagnostic tier) | `ExtremesBlock` |
+/// | `T` | third moments | `ThirdBlock` |
+///
+/// As an accumulator it is `Blocked<Joined<…>>`; `Default`, or [`Blocked::with_ratios`] where the ratios are
+/// on a defensive auxiliary. As a state and as a channel it is `Joined` of the parts' states.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Joined<B, R = (), G = (), E = (), T = ()> {
+    /// Means, and what spreads about them.
+    pub base: B,
+    /// Ratios f/h.
+    pub ratios: R,
+    /// Group means.
+    pub groups: G,
+    /// Tails.
+    pub extremes: E,
+    /// Third moments.
+    pub third: T,
+}
+
+impl Kernel for () {
+    type State = ();
+    const PARTIALS: usize = 1;
+    #[inline(always)]
+    fn empty((): &()) {}
+    #[inline(always)]
+    fn fold(&mut self, (): &()) {}
+    #[inline(always)]
+    fn close(&self, (): &(), _: u64) {}
+}
+
+impl<D> Takes<D> for () {
+    #[inline(always)]
+    fn open((): &(), _: &D) {}
+    #[inline(always)]
+    fn add(&mut self, _: usize, _: &D) {}
+}
+
+impl State for () {
+    type Channel = ();
+    #[inline(always)]
+    fn merge(&mut self, _: u64, (): &(), _: u64) {}
+    fn channel(&self, _: usize) {}
+}
+
+/// Several kernels of one kind, such as ratios on auxiliaries of different defensive weights.
+impl<B: Kernel, const L: usize> Kernel for [B; L] {
+    type State = [B::State; L];
+    const PARTIALS: usize = B::PARTIALS;
+    #[inline(always)]
+    fn empty(state: &Self::State) -> Self {
+        core::array::from_fn(|i| B::empty(&state[i]))
+    }
+    #[inline(always)]
+    fn fold(&mut self, other: &Self) {
+        for (block, other) in self.iter_mut().zip(other) {
+            block.fold(other);
+        }
+    }
+    #[inline(always)]
+    fn close(&self, state: &Self::State, count: u64) -> Self::State {
+        core::array::from_fn(|i| self[i].close(&state[i], count))
+    }
+}
+
+impl<D, B: Takes<D>, const L: usize> Takes<D> for [B; L] {
+    #[inline(always)]
+    fn open(state: &Self::State, first: &D) -> Self {
+        core::array::from_fn(|i| B::open(&state[i], first))
+    }
+    #[inline(always)]
+    fn add(&mut self, index: usize, draw: &D) {
+        for block in self {
+            block.add(index, draw);
+        }
+    }
+}
+
+impl<S: State, const L: usize> State for [S; L] {
+    type Channel = [S::Channel; L];
+    #[inline(always)]
+    fn merge(&mut self, count: u64, later: &Self, later_count: u64) {
+        for (state, later) in self.iter_mut().zip(later) {
+            state.merge(count, later, later_count);
+        }
+    }
+    fn channel(&self, channel: usize) -> Self::Channel {
+        core::array::from_fn(|i| self[i].channel(channel))
+    }
+}
+
+impl<B: Kernel, R: Kernel, G: Kernel, E: Kernel, T: Kernel> Kernel for Joined<B, R, G, E, T> {
+    type State = Joined<B::State, R::State, G::State, E::State, T::State>;
+    const PARTIALS: usize = B::PARTIALS;
+    #[inline(always)]
+    fn empty(state: &Self::State) -> Self {
+        Self {
+            base: B::empty(&state.base),
+            ratios: R::empty(&state.ratios),
+            groups: G::empty(&state.groups),
+            extremes: E::empty(&state.extremes),
+            third: T::empty(&state.third),
+        }
+    }
+    #[inline(always)]
+    fn fold(&mut self, other: &Self) {
+        self.base.fold(&other.base);
+        self.ratios.fold(&other.ratios);
+        self.groups.fold(&other.groups);
+        self.extremes.fold(&other.extremes);
+        self.third.fold(&other.third);
+    }
+    #[inline(always)]
+    fn close(&self, state: &Self::State, count: u64) -> Self::State {
+        Joined {
+            base: self.base.close(&state.base, count),
+            ratios: self.ratios.close(&state.ratios, count),
+            groups: self.groups.close(&state.groups, count),
+            extremes: self.extremes.close(&state.extremes, count),
+            third: self.third.close(&state.third, count),
+        }
+    }
+}
+
+impl<D, B, R, G, E, T> Takes<D> for Joined<B, R, G, E, T>
+where
+    B: Takes<D>,
+    R: Takes<D>,
+    G: Takes<D>,
+    E: Takes<D>,
+    T: Takes<D>,
+{
+    #[inline(always)]
+    fn open(state: &Self::State, first: &D) -> Self {
+        Self {
+            base: B::open(&state.base, first),
+            ratios: R::open(&state.ratios, first),
+            groups: G::open(&state.groups, first),
+            extremes: E::open(&state.extremes, first),
+            third: T::open(&state.third, first),
+        }
+    }
+    #[inline(always)]
+    fn add(&mut self, index: usize, draw: &D) {
+        self.base.add(index, draw);
+        self.ratios.add(index, draw);
+        self.groups.add(index, draw);
+        self.extremes.add(index, draw);
+        self.third.add(index, draw);
+    }
+}
+
+impl<B: State, R: State, G: State, E: State, T: State> State for Joined<B, R, G, E, T> {
+    type Channel = Joined<B::Channel, R::Channel, G::Channel, E::Channel, T::Channel>;
+    #[inline(always)]
+    fn merge(&mut self, count: u64, later: &Self, later_count: u64) {
+        self.base.merge(count, &later.base, later_count);
+        self.ratios.merge(count, &later.ratios, later_count);
+        self.groups.merge(count, &later.groups, later_count);
+        self.extremes.merge(count, &later.extremes, later_count);
+        self.third.merge(count, &later.third, later_count);
+    }
+    fn channel(&self, channel: usize) -> Self::Channel {
+        Joined {
+            base: self.base.channel(channel),
+            ratios: self.ratios.channel(channel),
+            groups: self.groups.channel(channel),
+            extremes: self.extremes.channel(channel),
+            third: self.third.channel(channel),
+        }
+    }
+}
+
+impl<V, B: Kernel, R: Kernel, G: Kernel, E: Kernel, T: Kernel> Blocked<V, Joined<B, R, G, E, T>>
+where
+    B::State: Default,
+    G::State: Default,
+    E::State: Default,
+    T::State: Default,
+{
+    /// An empty accumulator with the parameters of the (empty) ratio accumulator `ratios`.
+    pub fn with_ratios(ratios: Blocked<V, R>) -> Self {
+        Self::with_parameters(Joined {
+            base: B::State::default(),
+            ratios: ratios.parameters(),
+            groups: G::State::default(),
+            extremes: E::State::default(),
+            third: T::State::default(),
+        })
+    }
+}
+
+impl<V, B: Kernel> Blocked<V, [B; 2]> {
+    /// Two (empty) accumulators of one kind as one.
+    pub fn both(first: Blocked<V, B>, second: Blocked<V, B>) -> Self {
+        Self::with_parameters([first.parameters(), second.parameters()])
+    }
+}
+
+impl<B: HasMeans<K>, R, G, E: MayHaveTails, T, const K: usize> HasMeans<K> for Joined<B, R, G, E, T> {
+    fn means(&self, count: u64) -> Means<K> {
+        self.base.means(count)
+    }
+    fn spread(&self) -> Option<Spread> {
+        self.base.spread()
+    }
+    fn tails(&self) -> Option<Tails> {
+        self.extremes.tails()
+    }
+}
+
+impl<B: HasComoments, R, G, E: MayHaveTails, T> HasComoments for Joined<B, R, G, E, T> {
+    fn comoments(&self) -> Spread {
+        self.base.comoments()
+    }
+}
+
+impl<B, R: HasRatioMean, G, E, T> HasRatioMean for Joined<B, R, G, E, T> {
+    fn ratio(&self, weight: f64, integral: f64) -> Option<RatioMoments> {
+        self.ratios.ratio(weight, integral)
+    }
+}
+
+/// The first that was accumulated for the auxiliary asked for.
+impl<R: HasRatioMean, const L: usize> HasRatioMean for [R; L] {
+    fn ratio(&self, weight: f64, integral: f64) -> Option<RatioMoments> {
+        self.iter().find_map(|ratios| ratios.ratio(weight, integral))
+    }
+}
+
+impl<B, R, G: HasGroups, E, T> HasGroups for Joined<B, R, G, E, T> {
+    fn groups(&self) -> usize {
+        self.groups.groups()
+    }
+    fn group(&self, count: u64, group: usize) -> Group {
+        self.groups.group(count, group)
+    }
+}
+
+impl<B, R, G, E, T: HasThirdMoments> HasThirdMoments for Joined<B, R, G, E, T> {
+    fn third(&self) -> ThirdMoments {
+        self.third.third()
+    }
+}

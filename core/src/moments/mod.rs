@@ -1,0 +1,38 @@
+//! Accumulators: the moments of the draws that an estimator reads, and nothing else.
+//!
+//! Draws are summed in blocks of 64 about a shift, in the precision of their lanes, and the blocks
+//! are merged pairwise into `f64` state that keeps an anchor and means relative to it. An
+//! accumulator is a [`Kernel`] in a [`Blocked`] stream; [`Joined`] puts several kernels into one
+//! pass.
+//!
+//! What each estimator keeps, in bytes per pixel of `Spectrum<f32, 3>` and per `f64` channel:
+//!
+#![doc = include_str!("sizes.md")]
+
+mod accumulate;
+mod blocked;
+mod comoments;
+mod extremes;
+mod groups;
+mod joined;
+mod range;
+mod read;
+mod sums;
+mod third;
+mod univariate;
+
+pub use accumulate::{Accumulate, Merge, Moments, Widened};
+pub use blocked::{BLOCK, Blocked, Kernel, State, Takes};
+pub use comoments::{Comoments, ComomentsBlock, ComomentsState};
+pub use extremes::{Extremes, ExtremesBlock, ExtremesState, MayHaveTails};
+pub use groups::{Groups, GroupsBlock, GroupsState};
+pub use joined::Joined;
+pub use read::{
+    Group, HasComoments, HasGroups, HasMeans, HasRatioMean, HasThirdMoments, Means, RatioMoments, Spread, Tails,
+    ThirdMoments,
+};
+pub use sums::{Sums, SumsBlock, SumsState};
+pub use third::{Third, ThirdBlock, ThirdState};
+pub use univariate::{
+    IntegrandOf, Mean, Quantity, RatioMean, RatioOf, RatioVariance, UnivariateBlock, UnivariateState, Variance,
+};

@@ -1,0 +1,99 @@
+//! Means of the integrand and of each auxiliary: the value tier.
+
+use crate::draw::Draw;
+use crate::lanes::Lanes;
+use crate::moments::blocked::{Blocked, Kernel, State, Takes, partials};
+use crate::moments::read::{HasMeans, Means};
+
+/// Means of f and of `K` auxiliaries, and nothing else: what plain Monte Carlo (`K = 0`) and the
+/// ratio of means (`K = 1`) need for a value. The standard error is unknown (NaN).
+///
+/// After 0 draws the means are 0/0 and no estimator accepts them; after 1 draw they are that draw,
+/// to the bit. NaN or an infinity in a channel makes that channel's mean NaN.
+///
+/// ```
+/// use ratiocv_core::{moments::{Accumulate, Sums}, Draw, Estimator, Integrals, RatioOfMeans, Spectrum};
+/// let mut pixel = Sums::<Spectrum<f32, 3>>::default();
+/// pixel.add(Draw::new(Spectrum([1.0, 2.0, 3.0]), Spectrum([0.5, 1.0, 1.5])));
+/// pixel.add(Draw::new(Spectrum([3.0, 2.0, 1.0]), Spectrum([1.5, 1.0, 0.5])));
+/// let rgb = RatioOfMeans.estimate(&pixel, &Integrals::ONE)?.value;
+/// assert_eq!(rgb, Spectrum([2.0, 2.0, 2.0])); // f = 2h: no noise is left
+/// # Ok::<(), ratiocv_core::Error>(())
+/// ```
+pub type Sums<V, const K: usize = 1> = Blocked<V, SumsBlock<V, K>>;
+
+/// The block kernel of [`Sums`]: sums about the block's first draw.
+///
+/// The shift keeps Σ of large equal numbers from overflowing and makes constants exact.
+#[derive(Clone, Copy, Debug)]
+pub struct SumsBlock<V, const K: usize> {
+    shift: Draw<V, K>,
+    sum: Draw<V, K>,
+}
+
+/// The state of [`Sums`]: an anchor (the stream's first draw) and the means relative to it.
+#[derive(Clone, Copy, Debug)]
+pub struct SumsState<W, const K: usize> {
+    anchor: Draw<W, K>,
+    relative: Draw<W, K>,
+}
+
+impl<W: Lanes, const K: usize> Default for SumsState<W, K> {
+    fn default() -> Self {
+        Self { anchor: Draw::ZERO, relative: Draw::ZERO }
+    }
+}
+
+impl<V: Lanes, const K: usize> Kernel for SumsBlock<V, K> {
+    type State = SumsState<V::Wide, K>;
+    const PARTIALS: usize = partials(V::LANES);
+
+    #[inline(always)]
+    fn empty(_: &Self::State) -> Self {
+        Self { shift: Draw::ZERO, sum: Draw::ZERO }
+    }
+    #[inline(always)]
+    fn fold(&mut self, other: &Self) {
+        self.sum = self.sum.zip(other.sum, V::add);
+    }
+    #[inline(always)]
+    fn close(&self, _: &Self::State, count: u64) -> Self::State {
+        let count = V::Wide::splat(count as f64);
+        SumsState { anchor: self.shift.map(V::widen), relative: self.sum.map(|sum| sum.widen() / count) }
+    }
+}
+
+impl<V: Lanes, const K: usize> Takes<Draw<V, K>> for SumsBlock<V, K> {
+    #[inline(always)]
+    fn open(_: &Self::State, first: &Draw<V, K>) -> Self {
+        Self { shift: *first, sum: Draw::ZERO }
+    }
+    #[inline(always)]
+    fn add(&mut self, _: usize, draw: &Draw<V, K>) {
+        self.sum = self.sum.zip(draw.zip(self.shift, V::sub), V::add);
+    }
+}
+
+impl<W: Lanes<Scalar = f64>, const K: usize> State for SumsState<W, K> {
+    type Channel = SumsState<f64, K>;
+
+    #[inline(always)]
+    fn merge(&mut self, count: u64, later: &Self, later_count: u64) {
+        let weight = W::splat(later_count as f64 / (count + later_count) as f64);
+        let apart = later.anchor.zip(self.anchor, W::sub).zip(later.relative.zip(self.relative, W::sub), W::add);
+        self.relative = self.relative.zip(apart, |mean, apart| mean + apart * weight);
+    }
+    fn channel(&self, channel: usize) -> SumsState<f64, K> {
+        SumsState {
+            anchor: self.anchor.map(|lanes| lanes.get(channel)),
+            relative: self.relative.map(|lanes| lanes.get(channel)),
+        }
+    }
+}
+
+impl<const K: usize> HasMeans<K> for SumsState<f64, K> {
+    fn means(&self, _: u64) -> Means<K> {
+        let mean = self.anchor.zip(self.relative, |anchor, relative| anchor + relative);
+        Means { f: mean.f, h: mean.h }
+    }
+}

@@ -1,0 +1,237 @@
+//! Mean and variance of one number per draw: the integrand itself, or the ratio f/h.
+
+use crate::draw::Draw;
+use crate::error::{Error, weight_in_range};
+use crate::lanes::Lanes;
+use crate::moments::blocked::{Blocked, Kernel, State, Takes, partials};
+use crate::moments::range::{magnitude, smallest_square, unless_underflowed};
+use crate::moments::read::{HasMeans, HasRatioMean, Means, RatioMoments, Spread};
+use crate::problem::Integrals;
+
+/// A number that each draw yields, per channel.
+///
+/// *Implemented by* [`IntegrandOf`] and [`RatioOf`]; *called by* [`UnivariateBlock`].
+pub trait Quantity: Copy + core::fmt::Debug {
+    /// The channels.
+    type Lanes: Lanes;
+    /// What it is computed from.
+    type Draw: Copy;
+    /// Its parameters in one channel.
+    type Channel: Copy;
+    /// The number.
+    fn of(&self, draw: &Self::Draw) -> Self::Lanes;
+    /// The parameters of channel `channel`.
+    fn channel(&self, channel: usize) -> Self::Channel;
+}
+
+/// f, of draws with `K` auxiliaries.
+#[derive(Clone, Copy, Debug)]
+pub struct IntegrandOf<V, const K: usize>(core::marker::PhantomData<V>);
+
+impl<V, const K: usize> Default for IntegrandOf<V, K> {
+    fn default() -> Self {
+        Self(core::marker::PhantomData)
+    }
+}
+
+impl<V: Lanes, const K: usize> Quantity for IntegrandOf<V, K> {
+    type Lanes = V;
+    type Draw = Draw<V, K>;
+    type Channel = ();
+    #[inline(always)]
+    fn of(&self, draw: &Draw<V, K>) -> V {
+        draw.f
+    }
+    fn channel(&self, _: usize) {}
+}
+
+/// r = f/h′ with h′ = εH + (1−ε)h. Where f = 0 and h′ = 0, r is 0: then r·h′ = f holds, which is all
+/// that Hartley–Ross asks of r. Where only h′ = 0, r is infinite, and estimators say so.
+#[derive(Clone, Copy, Debug)]
+pub struct RatioOf<V> {
+    /// ε, the defensive weight.
+    weight: f64,
+    /// εH.
+    floor: V,
+}
+
+impl<V: Lanes> Default for RatioOf<V> {
+    fn default() -> Self {
+        Self { weight: 0.0, floor: V::ZERO }
+    }
+}
+
+impl<V: Lanes> Quantity for RatioOf<V> {
+    type Lanes = V;
+    type Draw = Draw<V>;
+    type Channel = RatioOf<f64>;
+    #[inline(always)]
+    fn of(&self, draw: &Draw<V>) -> V {
+        let h = self.floor + V::narrow(V::Wide::splat(1.0 - self.weight)) * draw.h[0];
+        let nothing = V::select(V::equal(draw.f, V::ZERO), V::ZERO, draw.f / h);
+        V::select(V::equal(h, V::ZERO), nothing, draw.f / h)
+    }
+    fn channel(&self, channel: usize) -> RatioOf<f64> {
+        RatioOf { weight: self.weight, floor: self.floor.widen().get(channel) }
+    }
+}
+
+/// Mean and, with `S` = 1, sum of squares about it, of a [`Quantity`]: the block kernel.
+#[derive(Clone, Copy, Debug)]
+pub struct UnivariateBlock<Q: Quantity, const S: usize> {
+    quantity: Q,
+    shift: Q::Lanes,
+    sum: Q::Lanes,
+    squares: [Q::Lanes; S],
+}
+
+/// The state of a [`UnivariateBlock`] stream: parameters, anchor, mean relative to it, squares.
+#[derive(Clone, Copy, Debug)]
+pub struct UnivariateState<Q, W, const S: usize> {
+    quantity: Q,
+    anchor: W,
+    relative: W,
+    squares: [W; S],
+}
+
+/// Mean of f alone: plain Monte Carlo without an error bar.
+pub type Mean<V, const K: usize = 1> = Blocked<V, UnivariateBlock<IntegrandOf<V, K>, 0>>;
+
+/// Mean and variance of f alone: plain Monte Carlo with an error bar.
+///
+/// ```
+/// use ratiocv_core::{moments::{Accumulate, Variance}, Draw, Estimator, Integrals, Plain};
+/// let mut moments = Variance::<f64, 0>::default();
+/// for f in [1.0, 2.0, 4.0, 5.0] {
+///     moments.add(Draw { f, h: [] });
+/// }
+/// let plain = Plain.estimate(&moments, &Integrals::NONE)?;
+/// assert_eq!(plain.value, 3.0);
+/// assert!((plain.std_error - (10.0_f64 / 3.0 / 4.0).sqrt()).abs() < 1e-15);
+/// # Ok::<(), ratiocv_core::Error>(())
+/// ```
+pub type Variance<V, const K: usize = 1> = Blocked<V, UnivariateBlock<IntegrandOf<V, K>, 1>>;
+
+/// Mean of r = f/h, the value tier of the mean of ratios and a part of Hartley–Ross; raw by
+/// `Default`, on a defensive auxiliary by [`Blocked::defensive`].
+pub type RatioMean<V> = Blocked<V, UnivariateBlock<RatioOf<V>, 0>>;
+
+/// Mean and variance of r = f/h: the mean of ratios with an error bar.
+pub type RatioVariance<V> = Blocked<V, UnivariateBlock<RatioOf<V>, 1>>;
+
+impl<V: Lanes, const S: usize> Blocked<V, UnivariateBlock<RatioOf<V>, S>> {
+    /// Ratios f/h′ with the defensive auxiliary h′ = εH + (1−ε)h, ε = `weight`.
+    ///
+    /// # Errors
+    /// [`Error::Weight`] unless 0 ≤ `weight` < 1.
+    pub fn defensive(weight: f64, integrals: &Integrals<V>) -> Result<Self, Error> {
+        Ok(Self::on(weight_in_range(weight)?, integrals))
+    }
+
+    /// The same for a weight that is known to be one.
+    pub(crate) fn on(weight: f64, integrals: &Integrals<V>) -> Self {
+        let floor = V::narrow(V::Wide::splat(weight) * integrals.0[0]);
+        Self::with_parameters(UnivariateState { quantity: RatioOf { weight, floor }, ..Default::default() })
+    }
+}
+
+impl<Q: Quantity, const S: usize> UnivariateBlock<Q, S> {
+    #[inline(always)]
+    fn about(quantity: Q, shift: Q::Lanes) -> Self {
+        Self { quantity, shift, sum: Q::Lanes::ZERO, squares: [Q::Lanes::ZERO; S] }
+    }
+}
+
+impl<Q: Default, W: Lanes, const S: usize> Default for UnivariateState<Q, W, S> {
+    fn default() -> Self {
+        Self { quantity: Q::default(), anchor: W::ZERO, relative: W::ZERO, squares: [W::ZERO; S] }
+    }
+}
+
+impl<Q: Quantity, const S: usize> Kernel for UnivariateBlock<Q, S> {
+    type State = UnivariateState<Q, <Q::Lanes as Lanes>::Wide, S>;
+    const PARTIALS: usize = partials(<Q::Lanes as Lanes>::LANES);
+
+    #[inline(always)]
+    fn empty(state: &Self::State) -> Self {
+        Self::about(state.quantity, Q::Lanes::ZERO)
+    }
+    #[inline(always)]
+    fn fold(&mut self, other: &Self) {
+        self.sum = self.sum + other.sum;
+        for (squares, other) in self.squares.iter_mut().zip(other.squares) {
+            *squares = *squares + other;
+        }
+    }
+    #[inline(always)]
+    fn close(&self, _: &Self::State, count: u64) -> Self::State {
+        let count = <Q::Lanes as Lanes>::Wide::splat(count as f64);
+        let relative = self.sum.widen() / count;
+        let squares = self.squares.map(|squares| {
+            let squares = magnitude(squares.widen() - relative * relative * count);
+            unless_underflowed(squares, squares, relative, smallest_square::<Q::Lanes>())
+        });
+        UnivariateState { quantity: self.quantity, anchor: self.shift.widen(), relative, squares }
+    }
+}
+
+impl<Q: Quantity, const S: usize> Takes<Q::Draw> for UnivariateBlock<Q, S> {
+    #[inline(always)]
+    fn open(state: &Self::State, first: &Q::Draw) -> Self {
+        Self::about(state.quantity, state.quantity.of(first))
+    }
+    #[inline(always)]
+    fn add(&mut self, _: usize, draw: &Q::Draw) {
+        let x = self.quantity.of(draw) - self.shift;
+        self.sum = self.sum + x;
+        for squares in &mut self.squares {
+            *squares = *squares + x * x;
+        }
+    }
+}
+
+impl<Q: Quantity, W: Lanes<Scalar = f64, Wide = W>, const S: usize> State for UnivariateState<Q, W, S> {
+    type Channel = UnivariateState<Q::Channel, f64, S>;
+
+    #[inline(always)]
+    fn merge(&mut self, count: u64, later: &Self, later_count: u64) {
+        let fraction = later_count as f64 / (count + later_count) as f64;
+        let apart = (later.anchor - self.anchor) + (later.relative - self.relative);
+        self.relative = self.relative + apart * W::splat(fraction);
+        for (squares, later) in self.squares.iter_mut().zip(later.squares) {
+            let joint = *squares + later + apart * apart * W::splat(count as f64 * fraction);
+            *squares = unless_underflowed(joint, joint, apart, smallest_square::<W>());
+        }
+    }
+    fn channel(&self, channel: usize) -> Self::Channel {
+        UnivariateState {
+            quantity: self.quantity.channel(channel),
+            anchor: self.anchor.get(channel),
+            relative: self.relative.get(channel),
+            squares: self.squares.map(|squares| squares.get(channel)),
+        }
+    }
+}
+
+impl<const S: usize, const K: usize> HasMeans<K> for UnivariateState<(), f64, S> {
+    /// The mean of f; the means of the auxiliaries are unknown (NaN).
+    fn means(&self, _: u64) -> Means<K> {
+        Means { f: self.anchor + self.relative, h: [f64::NAN; K] }
+    }
+    fn spread(&self) -> Option<Spread> {
+        self.squares.first().map(|ee| Spread { slope: 0.0, ee: *ee, eh: 0.0, hh: 0.0 })
+    }
+}
+
+impl<const S: usize> HasRatioMean for UnivariateState<RatioOf<f64>, f64, S> {
+    fn ratio(&self, weight: f64, integral: f64) -> Option<RatioMoments> {
+        // The floor was rounded to the draws' precision; f32's is the coarsest.
+        let floor = weight * integral;
+        let same = self.quantity.weight == weight && (self.quantity.floor - floor).abs() <= 1e-6 * floor.abs();
+        // A bad integral is the estimator's to report, not a mismatch.
+        (same || !floor.is_finite()).then(|| RatioMoments {
+            mean: self.anchor + self.relative,
+            squares: self.squares.first().copied(),
+        })
+    }
+}

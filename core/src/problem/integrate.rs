@@ -1,0 +1,125 @@
+//! The driver loop: from functions to draws to an estimate.
+
+use crate::draw::Draw;
+use crate::error::Error;
+use crate::estimate::Estimate;
+use crate::estimator::{Estimator, Reads};
+use crate::lanes::Lanes;
+use crate::moments::{Accumulate, BLOCK, Moments};
+use crate::problem::{Auxiliaries, Integrals, Integrand, Proposal};
+use core::marker::PhantomData;
+use rand_core::Rng;
+
+/// An integrand, its auxiliaries, and a proposal.
+///
+/// ```
+/// use rand_core::SeedableRng;
+/// use ratiocv_core::{HartleyRoss, Problem, Spectrum, Uniform, WithIntegral};
+/// let problem = Problem::new(|x: &f64| Spectrum([x + x * x, 2.0 + x * x]))
+///     .auxiliary(WithIntegral::new(|x: &f64| Spectrum([*x, 1.0 + x]), Spectrum([0.5, 1.5])))
+///     .proposal(Uniform);
+/// let mut rng = rand_pcg::Pcg64::seed_from_u64(1);
+/// let estimate = problem.integrate(&HartleyRoss, 10_000, &mut rng)?;
+/// assert!((estimate.value[0] - 5.0 / 6.0).abs() < 5.0 * estimate.std_error[0]);
+/// assert!((estimate.value[1] - 7.0 / 3.0).abs() < 5.0 * estimate.std_error[1]);
+/// # Ok::<(), ratiocv_core::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Problem<F, A = (), P = (), X = ()> {
+    integrand: F,
+    auxiliaries: A,
+    proposal: P,
+    point: PhantomData<fn(&X)>,
+}
+
+impl<F> Problem<F> {
+    /// The integral of `integrand`, so far without an auxiliary or a proposal.
+    pub const fn new<X>(integrand: F) -> Problem<F, (), (), X>
+    where
+        F: Integrand<X>,
+    {
+        Problem { integrand, auxiliaries: (), proposal: (), point: PhantomData }
+    }
+}
+
+impl<F, A, P, X> Problem<F, A, P, X> {
+    /// With one auxiliary.
+    pub fn auxiliary<H>(self, auxiliary: H) -> Problem<F, (H,), P, X> {
+        self.auxiliaries((auxiliary,))
+    }
+
+    /// With several auxiliaries: a tuple or an array.
+    pub fn auxiliaries<H>(self, auxiliaries: H) -> Problem<F, H, P, X> {
+        Problem { integrand: self.integrand, auxiliaries, proposal: self.proposal, point: PhantomData }
+    }
+
+    /// With draws from `proposal`.
+    pub fn proposal<G: Proposal<Point = X>>(self, proposal: G) -> Problem<F, A, G, X> {
+        Problem { integrand: self.integrand, auxiliaries: self.auxiliaries, proposal, point: PhantomData }
+    }
+}
+
+impl<F: Integrand<X>, A, P: Proposal<Point = X>, X> Problem<F, A, P, X> {
+    /// One draw: f(X)/g(X) and h_k(X)/g(X) at a point X ~ g.
+    ///
+    /// Where the pdf is 0 and so is the value, the quotient is 0: a point that the proposal returned
+    /// by rounding at the edge of its support carries nothing.
+    #[inline(always)]
+    pub fn draw<R: Rng + ?Sized, const K: usize>(&self, rng: &mut R) -> Draw<F::Value, K>
+    where
+        A: Auxiliaries<X, F::Value, K>,
+    {
+        let x = self.proposal.sample(rng);
+        let pdf = F::Value::narrow(<F::Value as Lanes>::Wide::splat(self.proposal.pdf(&x)));
+        let over = |value: F::Value| {
+            // A division, never a product with 1/pdf: that overflows for the smallest pdfs.
+            let quotient = value / pdf;
+            let nothing = F::Value::select(F::Value::equal(value, F::Value::ZERO), F::Value::ZERO, quotient);
+            F::Value::select(F::Value::equal(pdf, F::Value::ZERO), nothing, quotient)
+        };
+        Draw { f: over(self.integrand.value(&x)), h: self.auxiliaries.values(&x).map(over) }
+    }
+
+    /// The known integrals of the auxiliaries.
+    pub fn integrals<const K: usize>(&self) -> Integrals<F::Value, K>
+    where
+        A: Auxiliaries<X, F::Value, K>,
+    {
+        self.auxiliaries.integrals()
+    }
+
+    /// Adds `draws` draws to `moments`, a block at a time.
+    pub fn accumulate<M, R: Rng + ?Sized, const K: usize>(&self, moments: &mut M, draws: u64, rng: &mut R)
+    where
+        A: Auxiliaries<X, F::Value, K>,
+        M: Accumulate<Draw<F::Value, K>>,
+    {
+        for _ in 0..draws / BLOCK as u64 {
+            moments.add_batch(&core::array::from_fn::<_, BLOCK, _>(|_| self.draw(rng)));
+        }
+        for _ in 0..draws % BLOCK as u64 {
+            moments.add(self.draw(rng));
+        }
+    }
+
+    /// The estimate of `estimator` from `draws` draws, with the moments that it names for an error
+    /// bar.
+    ///
+    /// # Errors
+    /// As [`Estimator::estimate`].
+    pub fn integrate<E, R: Rng + ?Sized, const K: usize>(
+        &self,
+        estimator: &E,
+        draws: u64,
+        rng: &mut R,
+    ) -> Result<Estimate<F::Value>, Error>
+    where
+        A: Auxiliaries<X, F::Value, K>,
+        E: Reads<K> + Estimator<<E::ErrorBar<F::Value> as Moments>::Channel, K>,
+    {
+        let integrals = self.integrals();
+        let mut moments = estimator.error_bar(&integrals);
+        self.accumulate(&mut moments, draws, rng);
+        estimator.estimate(&moments, &integrals)
+    }
+}
