@@ -18,6 +18,9 @@ use num_traits::float::FloatCore;
 /// by a multiplication with a reciprocal: results must be the same bits on every platform.
 pub trait Lanes:
     Copy
+    + Send
+    + Sync
+    + 'static
     + Debug
     + PartialEq
     + Add<Output = Self>

@@ -1,0 +1,3 @@
+//! Error against run time, for problems whose integrals are known exactly.
+
+pub mod catalogue;
