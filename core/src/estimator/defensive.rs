@@ -41,7 +41,6 @@ impl<E> Defensive<E> {
     pub const fn weight(&self) -> f64 {
         self.weight
     }
-
 }
 
 impl<E: Reads> Reads for Defensive<E> {

@@ -40,9 +40,10 @@ impl<S: HasMeans + HasGroups> Estimator<S> for Mickey {
         for (g, group) in groups().enumerate().filter(|(_, group)| group.count > 0) {
             // The others' sums are added up, not taken as the difference to the whole: where this
             // group holds nearly all of Σx, the difference would have no digits left.
-            let (f, h) = groups().enumerate().filter(|(other, _)| *other != g).fold((0.0, 0.0), |(f, h), (_, other)| {
-                (f + other.count as f64 * other.f, h + other.count as f64 * other.h)
-            });
+            let (f, h) =
+                groups().enumerate().filter(|(other, _)| *other != g).fold((0.0, 0.0), |(f, h), (_, other)| {
+                    (f + other.count as f64 * other.f, h + other.count as f64 * other.h)
+                });
             if h == 0.0 {
                 return remarks.plain(remarks.zero_denominator());
             }

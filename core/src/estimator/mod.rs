@@ -79,12 +79,12 @@ pub trait Estimator<S, const K: usize = 1> {
     ) -> Result<Estimate<M::Lanes>, Error> {
         let closed = moments.closed();
         for channel in 0..M::Lanes::LANES {
-            of_channel(&closed, channel, |sample| self.check(sample, &integrals.channel(channel))).map_err(|error| {
-                match error {
+            of_channel(&closed, channel, |sample| self.check(sample, &integrals.channel(channel))).map_err(
+                |error| match error {
                     Error::OtherAuxiliary { estimator, .. } => Error::OtherAuxiliary { estimator, channel },
                     other => other,
-                }
-            })?;
+                },
+            )?;
         }
         Ok(self.estimate_anyway(&closed, integrals))
     }

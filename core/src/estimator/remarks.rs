@@ -84,10 +84,7 @@ impl Remarks {
         let rounding = 8.0 * self.epsilon * (mean.abs() + integral.abs());
         self.flags |= Flags::when(mean.abs() < 5.0 * error, Flags::DENOM_ILL)
             | Flags::when(ess < (n / 10.0).min(100.0), Flags::LOW_ESS)
-            | Flags::when(
-                integral.is_finite() && off > chance_limit(n - 1.0) * error + rounding,
-                Flags::AUX_MISMATCH,
-            );
+            | Flags::when(integral.is_finite() && off > chance_limit(n - 1.0) * error + rounding, Flags::AUX_MISMATCH);
     }
 
     /// The flags so far.

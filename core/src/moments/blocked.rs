@@ -138,7 +138,6 @@ impl<V, B: Kernel> Blocked<V, B> {
             self.absorb(&part, count);
         }
     }
-
 }
 
 impl<V, B: Kernel> Blocked<V, B> {
@@ -258,7 +257,9 @@ mod tests {
 
     #[test]
     fn partial_sums_fill_sixteen_lanes() {
-        for (channels, parts) in [(1, 16), (2, 8), (3, 16), (4, 4), (7, 16), (8, 2), (12, 4), (16, 1), (24, 2), (32, 1), (1000, 2)] {
+        for (channels, parts) in
+            [(1, 16), (2, 8), (3, 16), (4, 4), (7, 16), (8, 2), (12, 4), (16, 1), (24, 2), (32, 1), (1000, 2)]
+        {
             assert_eq!(partials(channels), parts, "{channels} channels");
         }
     }

@@ -183,8 +183,17 @@ mod tests {
 
     #[test]
     fn asymmetric_draws_match_the_definition_however_they_are_split() {
-        let draws: [(f64, f64); 9] =
-            [(1.0, 2.0), (3.0, 1.0), (0.5, 4.0), (7.0, 0.25), (1.5, 9.0), (2.0, 2.0), (-3.0, 1.0), (4.0, 5.5), (0.0, 3.0)];
+        let draws: [(f64, f64); 9] = [
+            (1.0, 2.0),
+            (3.0, 1.0),
+            (0.5, 4.0),
+            (7.0, 0.25),
+            (1.5, 9.0),
+            (2.0, 2.0),
+            (-3.0, 1.0),
+            (4.0, 5.5),
+            (0.0, 3.0),
+        ];
         let n = draws.len() as f64;
         let (f, h) = draws.iter().fold((0.0, 0.0), |m, d| (m.0 + d.0 / n, m.1 + d.1 / n));
         let exact = |p: i32, q: i32| draws.iter().map(|d| (d.1 - h).powi(p) * (d.0 - f).powi(q)).sum::<f64>();

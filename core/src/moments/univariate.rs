@@ -229,9 +229,7 @@ impl<const S: usize> HasRatioMean for UnivariateState<RatioOf<f64>, f64, S> {
         let floor = weight * integral;
         let same = self.quantity.weight == weight && (self.quantity.floor - floor).abs() <= 1e-6 * floor.abs();
         // A bad integral is the estimator's to report, not a mismatch.
-        (same || !floor.is_finite()).then(|| RatioMoments {
-            mean: self.anchor + self.relative,
-            squares: self.squares.first().copied(),
-        })
+        (same || !floor.is_finite())
+            .then(|| RatioMoments { mean: self.anchor + self.relative, squares: self.squares.first().copied() })
     }
 }
