@@ -1,0 +1,16 @@
+//! What the tests share: tolerance checks, golden files, exact enumeration.
+
+pub mod enumerate;
+pub mod golden;
+pub mod samples;
+pub mod sum;
+
+/// Panics unless `|ours − right| ≤ tolerance`, so that a NaN on either side fails.
+#[track_caller]
+pub fn assert_close(ours: f64, right: f64, tolerance: f64, what: &str) {
+    let error = (ours - right).abs();
+    assert!(
+        ours == right || error <= tolerance,
+        "{what}: {ours:e} should be {right:e}; off by {error:e}, allowed {tolerance:e}"
+    );
+}
