@@ -1,1 +1,31 @@
-fn main() {}
+//! The `ratiocv` binary: parse, run, exit.
+
+use clap::Parser;
+use ratiocv_cli::arguments::{Arguments, Command};
+use ratiocv_cli::{estimate, list, report};
+use std::io::{BufWriter, Write, stderr, stdout};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let Arguments { command, report } = Arguments::parse();
+    let mut out = BufWriter::new(stdout().lock());
+    let mut notes = stderr();
+    let done = match command {
+        None => report::run(&report, &mut out),
+        Some(Command::Report(report)) => report::run(&report, &mut out),
+        Some(Command::List) => list::run(&mut out),
+        Some(Command::Estimate(arguments)) => estimate::run(&arguments, &mut out, &mut notes),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(fault) => {
+            if !fault.is_silent() {
+                // A closed stderr is no reason to panic.
+                let _ = writeln!(notes, "error: {fault}");
+            }
+            // The buffer is dropped, not flushed again: what failed once would fail again.
+            let _ = out.into_parts();
+            ExitCode::from(fault.exit_code())
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! The command line.
+
+use crate::intake::OnBadDraw;
+use crate::integrals::Given;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use ratiocv_core::{Defensive, Plain};
+use ratiocv_report::catalogue::Method;
+use std::path::PathBuf;
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  done
+  1  the data or a file is bad
+  2  the command line is wrong";
+
+const EXAMPLES: &str = "\
+Examples:
+  ratiocv                                     the whole report, in ./report
+  ratiocv report --quick --problem three-lights
+  ratiocv list
+  ratiocv estimate draws.csv                  every estimator on your own draws";
+
+const ESTIMATE_FORMAT: &str = "\
+The file is CSV with a header, one row per draw:
+  f.CHANNEL    the integrand, divided by the pdf of the draw
+  h.CHANNEL    an auxiliary whose integral is known, divided likewise
+               (h2.CHANNEL, h3.CHANNEL, ... for further auxiliaries)
+  pdf          optional; if present, the other columns are divided by it, and 0/0 is 0
+Every channel needs at least one auxiliary, unless --estimator mc alone is asked for.
+
+Each estimate comes with its standard error and with flags; the table explains those raised. The
+favoured estimator is the one with the least MSE that theory predicts at this number of draws,
+from the moments of these same draws: a guide, not a promise.
+
+Unknown numbers are null in JSON and empty in CSV.";
+
+const ESTIMATE_EXAMPLES: &str = "\
+Examples:
+  ratiocv estimate draws.csv --integral h.r=1.25 --integral h.g=0.8
+  ratiocv estimate draws.csv --estimator hartley_ross --estimator defensive_mickey --format json
+  renderer | ratiocv estimate - --on-bad-draw skip";
+
+/// Which estimator gives the least error for your run time? Ratio control variates, measured.
+///
+/// Without a command: report.
+#[derive(Debug, Parser)]
+#[command(name = "ratiocv", version, after_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
+#[command(args_conflicts_with_subcommands = true)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// The options of `report`, for use without a command.
+    #[command(flatten)]
+    pub report: ReportArguments,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Measure error against run time on problems whose answers are known
+    #[command(after_help = EXIT_CODES)]
+    Report(ReportArguments),
+    /// List the problems and the estimators
+    #[command(after_help = EXIT_CODES)]
+    List,
+    /// Apply every estimator to draws of your own
+    #[command(after_long_help = format!("{ESTIMATE_FORMAT}\n\n{ESTIMATE_EXAMPLES}\n\n{EXIT_CODES}"))]
+    #[command(after_help = format!("{ESTIMATE_EXAMPLES}\n\n{EXIT_CODES}"))]
+    Estimate(EstimateArguments),
+}
+
+/// Options of `report`.
+#[derive(Clone, Debug, Args)]
+pub struct ReportArguments {
+    /// Fewer replicates and smaller samples: at most 20 seconds
+    #[arg(long)]
+    pub quick: bool,
+    /// Only this problem (repeatable; see `ratiocv list`)
+    #[arg(long = "problem", value_name = "NAME")]
+    pub problems: Vec<String>,
+    /// Only this estimator, beside mc (repeatable; see `ratiocv list`)
+    #[arg(long = "estimator", value_name = "NAME", value_parser = methods(), hide_possible_values = true)]
+    pub estimators: Vec<Method>,
+    /// Seed of the random draws; the same seed gives the same errors, for any number of threads
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<std::num::NonZeroUsize>,
+    /// About how long to measure, in seconds
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub budget: Option<f64>,
+    /// Directory for index.html, report.json and report.csv
+    #[arg(long, value_name = "DIR", default_value = "report")]
+    pub out: PathBuf,
+}
+
+/// Options of `estimate`.
+#[derive(Clone, Debug, Args)]
+pub struct EstimateArguments {
+    /// The CSV file of draws; - reads standard input
+    pub file: PathBuf,
+    /// The known integral of an auxiliary, such as h.r=1.25 (repeatable) [default: 1]
+    #[arg(long, value_name = "COLUMN=VALUE")]
+    pub integral: Vec<Given>,
+    /// Weight w of the defensive auxiliaries w H + (1 - w) h, at least 0 and below 1
+    #[arg(long, value_name = "W", default_value_t = Defensive::<Plain>::DEFAULT_WEIGHT, value_parser = weight)]
+    #[arg(allow_negative_numbers = true)]
+    pub defensive: f64,
+    /// Only this estimator (repeatable; see `ratiocv list`)
+    #[arg(long = "estimator", value_name = "NAME", value_parser = methods(), hide_possible_values = true)]
+    pub estimators: Vec<Method>,
+    /// How to print the estimates
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    pub format: Format,
+    /// What to do with a row that is malformed, or whose numbers are not finite
+    #[arg(long, value_enum, default_value_t = OnBadDraw::Error)]
+    pub on_bad_draw: OnBadDraw,
+}
+
+impl EstimateArguments {
+    /// The estimators asked for, in the catalogue's order; all if none is named.
+    pub fn methods(&self) -> Vec<Method> {
+        Method::all().filter(|method| self.estimators.is_empty() || self.estimators.contains(method)).collect()
+    }
+}
+
+/// How to print estimates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// For reading
+    Table,
+    /// One object
+    Json,
+    /// One row per estimate
+    Csv,
+}
+
+/// Estimators by their ids; an unknown one is answered with the nearest and the list.
+fn methods() -> impl TypedValueParser<Value = Method> {
+    let values = Method::all().map(|method| PossibleValue::new(method.id()).help(method.about()));
+    PossibleValuesParser::new(values).try_map(|id| Method::from_id(&id).ok_or("there is no such estimator"))
+}
+
+fn weight(text: &str) -> Result<f64, String> {
+    let weight: f64 = text.parse().map_err(|_| "it must be a number, such as 0.01".to_owned())?;
+    if (0.0..1.0).contains(&weight) { Ok(weight) } else { Err("it must be at least 0 and below 1".into()) }
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.parse().map_err(|_| "it must be a number of seconds".to_owned())?;
+    if seconds > 0.0 && seconds.is_finite() { Ok(seconds) } else { Err("it must be above 0".into()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Arguments;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_well_formed() {
+        Arguments::command().debug_assert();
+    }
+}

@@ -1,0 +1,20 @@
+//! The `ratiocv` command: `report`, `list` and `estimate`.
+//!
+//! `estimate` is a pipe of small parts: [`rows`] cuts text into fields, [`columns`] gives the fields
+//! their meaning, [`number`] reads one, [`intake`] streams draws into accumulators, [`verdict`] turns
+//! these into estimates and says which one the predictions favour, and [`output`] prints them.
+
+pub mod arguments;
+pub mod columns;
+pub mod estimate;
+pub mod fault;
+pub mod flag_help;
+pub mod intake;
+pub mod integrals;
+pub mod list;
+pub mod number;
+pub mod output;
+pub mod progress;
+pub mod report;
+pub mod rows;
+pub mod verdict;

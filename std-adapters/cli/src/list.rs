@@ -1,0 +1,24 @@
+//! `ratiocv list`: what there is to choose from.
+
+use crate::fault::Fault;
+use ratiocv_report::catalogue::Method;
+use std::io::Write;
+
+/// Prints the problems and the estimators, one line each.
+///
+/// # Errors
+/// Those of writing.
+pub fn run(out: &mut dyn Write) -> Result<(), Fault> {
+    let estimators: Vec<_> = Method::all().map(|method| (method.id().to_owned(), method.about().to_owned())).collect();
+    print("Estimators", &estimators, out)?;
+    Ok(out.flush()?)
+}
+
+fn print(title: &str, lines: &[(String, String)], out: &mut dyn Write) -> Result<(), Fault> {
+    let width = lines.iter().map(|(id, _)| id.chars().count()).max().unwrap_or(0);
+    writeln!(out, "{title}:")?;
+    for (id, about) in lines {
+        writeln!(out, "  {id:width$}  {about}")?;
+    }
+    Ok(())
+}
