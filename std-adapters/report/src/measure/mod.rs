@@ -1,0 +1,18 @@
+//! Error, bias and run time of every estimator on every problem.
+
+mod clock;
+mod compare;
+mod options;
+mod plan;
+mod progress;
+mod replicates;
+mod report;
+mod run;
+mod tally;
+mod theory;
+
+pub use compare::{Equal, Versus};
+pub use options::{Error, Options};
+pub use progress::Progress;
+pub use report::{ChannelPoint, Figures, MethodReport, Point, ProblemReport, Report, Seconds, Theory};
+pub use run::run;

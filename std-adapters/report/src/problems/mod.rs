@@ -1,0 +1,34 @@
+//! Problems whose integrals are known exactly. One file each.
+
+mod badly_correlated;
+mod curve;
+mod importance_sampled;
+mod lattice;
+mod nearly_vanishing;
+mod negative_correlation;
+mod peaks;
+mod population;
+mod problem;
+mod proportional;
+mod signed;
+mod solved;
+mod spectrum;
+mod three_lights;
+mod truncated;
+mod well_correlated;
+
+pub use badly_correlated::BadlyCorrelated;
+pub use curve::{Axis, Curve, Role};
+pub use importance_sampled::ImportanceSampled;
+pub use lattice::Lattice;
+pub use nearly_vanishing::NearlyVanishing;
+pub use negative_correlation::NegativeCorrelation;
+pub use peaks::Peaks;
+pub use population::{population, population_of};
+pub use problem::{Problem, Visitor};
+pub use proportional::Proportional;
+pub use signed::Signed;
+pub use solved::{Description, Solved, Source};
+pub use spectrum::MeanSpectrum;
+pub use three_lights::ThreeLights;
+pub use well_correlated::WellCorrelated;
