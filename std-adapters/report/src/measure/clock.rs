@@ -6,9 +6,9 @@ use crate::measure::report::Seconds;
 use crate::problems::{Solved, Source};
 use core::hint::black_box;
 use rand_core::Rng;
-use ratiocv_core::moments::Moments;
+use ratiocv_core::moments::{Accumulate, Moments};
 use ratiocv_core::predict::Predict;
-use ratiocv_core::{Estimator, Reads};
+use ratiocv_core::{Draw, Estimator, Reads};
 use ratiocv_threads::stream;
 use std::time::Instant;
 
@@ -31,11 +31,18 @@ impl<S: Source, R: Rng> catalogue::Visitor<S::Value> for Timed<'_, S, R> {
         let start = Instant::now();
         for _ in 0..self.repeats {
             let mut moments = estimator.error_bar(&integrals);
-            self.source.accumulate(&mut moments, self.draws, self.rng);
+            fill(self.source, &mut moments, self.draws, self.rng);
             black_box(estimator.estimate_anyway(&moments, &integrals));
         }
         start.elapsed().as_secs_f64() / self.repeats as f64
     }
+}
+
+/// Not inlined, so that estimators that read the same moments share this code: a build takes minutes
+/// otherwise.
+#[inline(never)]
+fn fill<S: Source, M: Accumulate<Draw<S::Value>>>(source: &S, moments: &mut M, draws: u64, rng: &mut impl Rng) {
+    source.accumulate(moments, draws, rng);
 }
 
 /// Run times of `methods` on `problem`, on this thread alone.

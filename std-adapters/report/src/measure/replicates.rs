@@ -11,9 +11,9 @@ use ratiocv_threads::{map_chunks, stream};
 /// The seed of the draws of problem `id` at `draws` draws: the same whatever else is measured.
 pub(super) fn cell_seed(seed: u64, id: &str, draws: u64) -> u64 {
     // FNV-1a; the stream spreads its bits.
-    let name = id.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    });
+    let name = id
+        .bytes()
+        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
     stream(seed, name ^ draws).next_u64()
 }
 

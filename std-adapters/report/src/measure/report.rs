@@ -2,8 +2,8 @@
 
 use crate::catalogue::Method;
 use crate::measure::Equal;
-use crate::provenance::Provenance;
 use crate::problems::Problem;
+use crate::provenance::Provenance;
 use ratiocv_core::predict::Prediction;
 
 /// What a run found out, problem by problem.

@@ -11,7 +11,6 @@ use crate::measure::{Error, Options, Progress};
 use crate::problems::{Problem, Solved, Visitor, population_of};
 use crate::provenance::Provenance;
 use core::cell::Cell;
-use ratiocv_core::Lanes;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::time::Instant;
 

@@ -36,9 +36,6 @@ impl Curve {
 
     /// f/F and h/H of a single channel.
     pub(crate) fn pair(f: impl Fn(f64) -> f64, h: impl Fn(f64) -> f64) -> Vec<Self> {
-        vec![
-            Self::of(String::new(), 0, Role::Integrand, f),
-            Self::of(String::new(), 0, Role::Auxiliary, h),
-        ]
+        vec![Self::of(String::new(), 0, Role::Integrand, f), Self::of(String::new(), 0, Role::Auxiliary, h)]
     }
 }

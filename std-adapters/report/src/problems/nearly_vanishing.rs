@@ -1,7 +1,7 @@
 //! An auxiliary that is almost zero where the integrand is not.
 
+use crate::problems::uniform::uniform;
 use crate::problems::{Axis, Curve, Description, Solved, Source};
-use ratiocv_core::{Problem, Uniform, WithIntegral};
 
 /// See [`Description`] for what it shows.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +29,7 @@ impl Solved for NearlyVanishing {
         0.05 + 1.0 / 3.0
     }
     fn source(&self) -> impl Source<Value = f64> {
-        Problem::new(|x: &f64| f(*x)).auxiliary(WithIntegral::new(|x: &f64| h(*x), 1e-4 + 1.0 / 3.0)).proposal(Uniform)
+        uniform(|x| f(*x), |x| h(*x), 1e-4 + 1.0 / 3.0)
     }
     fn channel(&self, _: usize) -> String {
         String::new()

@@ -1,8 +1,8 @@
 //! An integrand that changes its sign.
 
+use crate::problems::uniform::uniform;
 use crate::problems::{Axis, Curve, Description, Solved, Source};
 use core::f64::consts::PI;
-use ratiocv_core::{Problem, Uniform, WithIntegral};
 
 /// See [`Description`] for what it shows.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +30,7 @@ impl Solved for Signed {
         0.25
     }
     fn source(&self) -> impl Source<Value = f64> {
-        Problem::new(|x: &f64| f(*x)).auxiliary(WithIntegral::new(|x: &f64| h(*x), 1.0)).proposal(Uniform)
+        uniform(|x| f(*x), |x| h(*x), 1.0)
     }
     fn channel(&self, _: usize) -> String {
         String::new()

@@ -1,6 +1,6 @@
 //! What a problem with a known answer offers.
 
-use crate::problems::Curve;
+use crate::problems::{Axis, Curve};
 use rand_core::Rng;
 use ratiocv_core::moments::Accumulate;
 use ratiocv_core::{Auxiliaries, Draw, Integrals, Integrand, Lanes, Problem, Proposal};
@@ -12,8 +12,8 @@ use ratiocv_core::{Auxiliaries, Draw, Integrals, Integrand, Lanes, Problem, Prop
 ///
 /// # Laws
 /// `exact` is the expectation of the draws' f and `source().integrals()` that of their h, to
-/// rounding. A draw takes exactly `UNIFORMS` numbers from the generator, by `next_u64`, so that a
-/// lattice can take the generator's place.
+/// rounding. A draw takes exactly `UNIFORMS` numbers from the generator, by `next_u64`, so that
+/// [`Sobol`](crate::problems::Sobol) points can take the generator's place.
 pub trait Solved: Copy + Sync {
     /// The channels.
     type Value: Lanes<Scalar = f64, Wide = Self::Value>;
@@ -31,8 +31,6 @@ pub trait Solved: Copy + Sync {
     /// f and h over one axis, to be looked at.
     fn curves(&self) -> (Axis, Vec<Curve>);
 }
-
-use crate::problems::Axis;
 
 /// A problem in words.
 #[derive(Clone, Copy, Debug)]

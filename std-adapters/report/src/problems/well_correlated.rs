@@ -1,8 +1,8 @@
 //! An auxiliary that follows the integrand.
 
+use crate::problems::uniform::uniform;
 use crate::problems::{Axis, Curve, Description, Solved, Source};
 use core::f64::consts::PI;
-use ratiocv_core::{Problem, Uniform, WithIntegral};
 
 /// See [`Description`] for what it shows.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +32,7 @@ impl Solved for WellCorrelated {
         0.8 - 0.2 * 0.25 + 0.1 * 0.4
     }
     fn source(&self) -> impl Source<Value = f64> {
-        Problem::new(|x: &f64| f(*x)).auxiliary(WithIntegral::new(|x: &f64| h(*x), 0.8)).proposal(Uniform)
+        uniform(|x| f(*x), |x| h(*x), 0.8)
     }
     fn channel(&self, _: usize) -> String {
         String::new()
