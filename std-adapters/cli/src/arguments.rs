@@ -6,6 +6,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use ratiocv_core::{Defensive, Plain};
 use ratiocv_report::catalogue::Method;
+use ratiocv_report::problems::Problem;
 use std::path::PathBuf;
 
 const EXIT_CODES: &str = "\
@@ -78,8 +79,8 @@ pub struct ReportArguments {
     #[arg(long)]
     pub quick: bool,
     /// Only this problem (repeatable; see `ratiocv list`)
-    #[arg(long = "problem", value_name = "NAME")]
-    pub problems: Vec<String>,
+    #[arg(long = "problem", value_name = "NAME", value_parser = problems(), hide_possible_values = true)]
+    pub problems: Vec<Problem>,
     /// Only this estimator, beside mc (repeatable; see `ratiocv list`)
     #[arg(long = "estimator", value_name = "NAME", value_parser = methods(), hide_possible_values = true)]
     pub estimators: Vec<Method>,
@@ -89,7 +90,7 @@ pub struct ReportArguments {
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<std::num::NonZeroUsize>,
-    /// About how long to measure, in seconds
+    /// About how long two cores may measure, in seconds; decides how many replicates there are
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub budget: Option<f64>,
     /// Directory for index.html, report.json and report.csv
@@ -142,6 +143,12 @@ pub enum Format {
 fn methods() -> impl TypedValueParser<Value = Method> {
     let values = Method::all().map(|method| PossibleValue::new(method.id()).help(method.about()));
     PossibleValuesParser::new(values).try_map(|id| Method::from_id(&id).ok_or("there is no such estimator"))
+}
+
+/// Problems likewise.
+fn problems() -> impl TypedValueParser<Value = Problem> {
+    let values = Problem::all().map(|problem| PossibleValue::new(problem.id()).help(problem.about()));
+    PossibleValuesParser::new(values).try_map(|id| Problem::from_id(&id).ok_or("there is no such problem"))
 }
 
 fn weight(text: &str) -> Result<f64, String> {

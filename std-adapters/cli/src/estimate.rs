@@ -74,7 +74,7 @@ pub fn estimate(
     }
     let assumed = verdict.assumed();
     if arguments.format != Format::Table && !assumed.is_empty() && methods != [Method::PLAIN] {
-        let _ = writeln!(notes, "note: no --integral for {}: taken to be 1", assumed.join(", "));
+        let _ = writeln!(notes, "note: no --integral for {}: taken to be 1", output::listed(&assumed));
     }
     output::print(&verdict, arguments.format, out)
 }

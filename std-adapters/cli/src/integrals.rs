@@ -2,6 +2,7 @@
 
 use crate::columns::{Columns, names_an_auxiliary};
 use crate::fault::Fault;
+use crate::output::listed;
 use std::str::FromStr;
 
 /// A known integral, as given on the command line.
@@ -53,7 +54,7 @@ pub fn of_columns(columns: &Columns, given: &[Given], file: &str) -> Result<Vec<
             return Err(Fault::usage(format!("--integral {} is given twice", one.column), "give each integral once"));
         }
         if !columns.auxiliaries().any(|column| column == one.column) {
-            let all = columns.auxiliaries().collect::<Vec<_>>().join(", ");
+            let all = listed(&columns.auxiliaries().collect::<Vec<_>>());
             let all = if all.is_empty() { "there is none".to_owned() } else { format!("there are {all}") };
             let what = format!("--integral {}: {file} has no such column", one.column);
             return Err(Fault::usage(what, format!("name the column of an auxiliary: {all}")));

@@ -2,6 +2,7 @@
 
 use crate::fault::Fault;
 use ratiocv_report::catalogue::Method;
+use ratiocv_report::problems::Problem;
 use std::io::Write;
 
 /// Prints the problems and the estimators, one line each.
@@ -10,6 +11,10 @@ use std::io::Write;
 /// Those of writing.
 pub fn run(out: &mut dyn Write) -> Result<(), Fault> {
     let estimators: Vec<_> = Method::all().map(|method| (method.id().to_owned(), method.about().to_owned())).collect();
+    let problems: Vec<_> =
+        Problem::all().map(|problem| (problem.id().to_owned(), problem.about().to_owned())).collect();
+    print("Problems", &problems, out)?;
+    writeln!(out)?;
     print("Estimators", &estimators, out)?;
     Ok(out.flush()?)
 }

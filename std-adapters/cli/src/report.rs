@@ -2,12 +2,46 @@
 
 use crate::arguments::ReportArguments;
 use crate::fault::Fault;
+use crate::progress::OfMeasuring;
+use ratiocv_report::{Options, run as measure};
+use std::fs;
 use std::io::Write;
 
-/// Runs the command.
+/// Runs the command: the table and the names of the files to `out`.
 ///
 /// # Errors
-/// An unknown problem, and files that cannot be written.
-pub fn run(_: &ReportArguments, _: &mut dyn Write) -> Result<(), Fault> {
-    Err(Fault::data("the report is not there yet", "use `ratiocv estimate`"))
+/// Options that cannot be met, and files that cannot be written.
+pub fn run(arguments: &ReportArguments, out: &mut dyn Write) -> Result<(), Fault> {
+    let cannot_write = |error: std::io::Error| {
+        let what = format!("cannot write to {}: {error}", arguments.out.display());
+        Fault::data(what, "give a directory that may be written to with --out DIR")
+    };
+    // Before the minute of measuring, not after it.
+    fs::create_dir_all(&arguments.out).map_err(cannot_write)?;
+    let progress = OfMeasuring::new();
+    let measured = measure(&options(arguments), &progress);
+    progress.finish();
+    let report = measured.map_err(|error| Fault::data(error.to_string(), "see ratiocv report --help"))?;
+    let files = report.write(&arguments.out).map_err(cannot_write)?;
+    write!(out, "{}", report.table())?;
+    for file in files {
+        writeln!(out, "wrote {}", file.display())?;
+    }
+    Ok(out.flush()?)
+}
+
+fn options(arguments: &ReportArguments) -> Options {
+    let mut options = Options { seed: arguments.seed, quick: arguments.quick, ..Options::default() };
+    options.threads = arguments.threads.map(usize::from);
+    // In the order of the list, each once.
+    if !arguments.problems.is_empty() {
+        options.problems.retain(|problem| arguments.problems.contains(problem));
+    }
+    if !arguments.estimators.is_empty() {
+        options.methods.retain(|method| arguments.estimators.contains(method));
+    }
+    if let Some(seconds) = arguments.budget {
+        options.budget_seconds = seconds;
+    }
+    options
 }

@@ -1,7 +1,7 @@
 //! A table to read on a terminal, and the verdict in words.
 
 use crate::flag_help::meaning;
-use crate::output::{counted, number::significant, rows};
+use crate::output::{counted, listed, number::significant, rows};
 use crate::verdict::{Line, Verdict};
 use comfy_table::{Cell, CellAlignment, LineStyle, Table, TableStyle};
 use ratiocv_core::Flags;
@@ -24,13 +24,15 @@ fn print_integrals(verdict: &Verdict, out: &mut dyn Write) -> io::Result<()> {
     if verdict.estimates.iter().all(|line| line.auxiliary.is_none()) {
         return Ok(());
     }
-    let shown = verdict
-        .integrals
-        .iter()
-        .map(|known| format!("{} = {}{}", known.column, known.value, if known.assumed { " (assumed)" } else { "" }));
-    writeln!(out, "known integrals: {}", shown.collect::<Vec<_>>().join(", "))?;
-    if !verdict.assumed().is_empty() {
-        writeln!(out, "(assumed: not given, so taken to be 1; give others with --integral COLUMN=VALUE)")?;
+    let given = verdict.integrals.iter().filter(|known| !known.assumed);
+    let given: Vec<_> = given.map(|known| format!("{} = {}", known.column, known.value)).collect();
+    if !given.is_empty() {
+        writeln!(out, "known integrals: {}", given.join(", "))?;
+    }
+    let assumed = verdict.assumed();
+    if !assumed.is_empty() {
+        let list = listed(&assumed);
+        writeln!(out, "known integrals taken to be 1, since no --integral was given: {list}")?;
     }
     if verdict.estimates.iter().any(|line| line.method.is_defensive()) {
         writeln!(out, "defensive auxiliaries: {w} H + (1 - {w}) h", w = verdict.weight)?;

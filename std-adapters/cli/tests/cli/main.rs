@@ -1,0 +1,11 @@
+//! The binary, as a user meets it.
+
+mod bad_draws;
+mod bad_files;
+mod commands;
+mod formats;
+mod random_bytes;
+mod sample;
+mod streams;
+mod support;
+mod usage;
