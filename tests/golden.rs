@@ -249,7 +249,8 @@ fn lemma_9_holds_exactly() {
         let h = law.h.first();
         for n in [2, 3, 8] {
             let (mut ratio, _) = estimator_of("ratio", &Params::default(), h).expect("the ratio of means");
-            let bias = over_groups(&law.support, 1, n, law.f, |groups| ratio(&mut dealt(&law.support, groups, 1.0))).bias;
+            let bias =
+                over_groups(&law.support, 1, n, law.f, |groups| ratio(&mut dealt(&law.support, groups, 1.0))).bias;
             let covariance = over_groups(&law.support, 1, n, 0.0, |groups| {
                 let mean_h = groups[0].iter().map(|i| law.support[*i].x[0]).sum::<f64>() / n as f64;
                 ratio(&mut dealt(&law.support, groups, 1.0)) * (mean_h - h)

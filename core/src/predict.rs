@@ -5,6 +5,7 @@
 
 use crate::estimator::{Beale, Defensive, HartleyRoss, MeanOfRatios, Mickey, Plain, Quenouille, RatioOfMeans, Tin};
 use crate::moments::{HasComoments, HasRatioMean, HasThirdMoments, Spread};
+use crate::planted::planted;
 
 /// Moments of one channel of the law of a draw (y, x), x in units of its integral H.
 ///
@@ -207,7 +208,9 @@ impl Predict for RatioOfMeans {
 
 impl Predict for Quenouille {
     fn predict(&self, p: &Population, draws: u64, order: Order) -> Prediction {
-        almost_unbiased(p, -2.0 * (p.d() + 3.0 * p.s()), 2.0 * p.second_mse(), draws, order)
+        // The seed prints +6S for −6S.
+        let bias = planted!("predict_quenouille": -2.0 * (p.d() + 3.0 * p.s()), -2.0 * (p.d() - 3.0 * p.s()));
+        almost_unbiased(p, bias, 2.0 * p.second_mse(), draws, order)
     }
 }
 
@@ -234,7 +237,8 @@ impl Predict for MeanOfRatios {
 impl Predict for HartleyRoss {
     /// Bias 0, MSE Var(y − ρx)/N + \[Var r·Var x + Cov(r, x)²\]/(N(N−1)): exact to second order.
     fn predict(&self, p: &Population, draws: u64, order: Order) -> Prediction {
-        let (n, c) = (draws as f64, p.h * p.ratio.mean);
+        // The seed gives it the ratio's MSE, with R for ρ.
+        let (n, c) = (draws as f64, planted!("predict_hartley_ross": p.h * p.ratio.mean, p.f));
         let covariance = p.f - c;
         let first = p.ff_c02 - 2.0 * c * p.f_c11 + c * c * p.c20;
         let second = p.h * p.h * p.ratio.variance * p.c20 + covariance * covariance;
@@ -250,7 +254,7 @@ impl Predict for HartleyRoss {
 impl Predict for Mickey {
     /// Bias 0; for 8 groups, or leave-one-out below 8 draws.
     fn predict(&self, p: &Population, draws: u64, order: Order) -> Prediction {
-        let groups = draws.min(8) as f64;
+        let groups = if draws < 2 { f64::NAN } else { draws.min(8) as f64 };
         let e = p.a();
         let second = groups / (groups - 1.0) * (p.c20 * p.v() + 3.0 * e * e);
         Prediction { bias: 0.0, mse: expansion(p.v(), second, draws, order) }

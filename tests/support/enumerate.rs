@@ -45,7 +45,8 @@ pub fn ascending(kinds: usize, length: usize, each: &mut impl FnMut(&[usize])) {
 pub fn multisets(support: &[Point], group_size: usize) -> Vec<(Vec<usize>, f64)> {
     let mut all = Vec::new();
     compositions(group_size, support.len(), &mut |counts| {
-        let weight = multinomial(counts) * counts.iter().zip(support).map(|(c, p)| p.p.powi(*c as i32)).product::<f64>();
+        let weight =
+            multinomial(counts) * counts.iter().zip(support).map(|(c, p)| p.p.powi(*c as i32)).product::<f64>();
         all.push((counts.to_vec(), weight));
     });
     all

@@ -2,6 +2,7 @@
 
 pub mod enumerate;
 pub mod golden;
+pub mod population;
 pub mod samples;
 pub mod sum;
 

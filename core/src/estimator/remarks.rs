@@ -143,9 +143,9 @@ impl Remarks {
             Some(spread) => {
                 let n = self.count as f64;
                 let squares = spread.about(c);
-                // What rounding of the draws alone would leave of draws that are exactly
-                // proportional.
-                let scale = 16.0 * self.epsilon;
+                // What the rounding of sums over a block may leave of draws that are exactly
+                // proportional: measured, at most 16 units of roundoff of the spread of f.
+                let scale = 32.0 * self.epsilon;
                 let floor = scale * scale * (spread.ee + spread.slope * spread.slope * spread.hh);
                 let below = squares > 0.0 && squares < floor;
                 flags |= Flags::when(below, Flags::ROUNDING);

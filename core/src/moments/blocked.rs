@@ -60,6 +60,21 @@ pub trait State: Copy {
     fn channel(&self, channel: usize) -> Self::Channel;
 }
 
+/// The part with more draws first (the earlier of two alike), the other one, and the fraction of all
+/// draws that the other one has.
+///
+/// Merges keep the anchor of the larger part: relative to that of a lone outlier, the mean of
+/// everything else would lose its digits.
+#[inline(always)]
+pub(crate) fn larger_first<S>(earlier: S, count: u64, later: S, later_count: u64) -> (S, S, f64) {
+    let total = (count + later_count) as f64;
+    if later_count > count {
+        (later, earlier, count as f64 / total)
+    } else {
+        (earlier, later, later_count as f64 / total)
+    }
+}
+
 /// Partial sums for `M` channels: as many draws as make the channels fill 16 lanes evenly.
 pub(crate) const fn partials(channels: usize) -> usize {
     let mut gcd = 16;

@@ -16,9 +16,10 @@
 
 use crate::draw::Draw;
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes, partials};
+use crate::moments::blocked::{Blocked, Kernel, State, Takes, larger_first, partials};
 use crate::moments::range::{magnitude, smallest_square, unless_underflowed};
 use crate::moments::read::{HasComoments, HasMeans, Means, Spread};
+use crate::planted::planted;
 
 /// Means and second co-moments of f and one auxiliary: the error-bar tier of every estimator that
 /// works on means.
@@ -148,7 +149,7 @@ impl<W: Lanes<Scalar = f64, Wide = W>> ComomentsState<W> {
     /// The same moments with residuals about `slope`.
     #[inline(always)]
     fn with_slope(self, slope: W) -> Self {
-        let turn = slope - self.slope;
+        let turn = planted!("comoments_turn": slope - self.slope, self.slope - slope);
         Self {
             slope,
             ee: magnitude(self.ee - turn * (self.eh + self.eh - turn * self.hh)),
@@ -164,22 +165,23 @@ impl<W: Lanes<Scalar = f64, Wide = W>> State for ComomentsState<W> {
     /// Pairwise update of Chan, Golub and LeVeque (1983), on residuals about the joint slope.
     #[inline(always)]
     fn merge(&mut self, count: u64, later: &Self, later_count: u64) {
-        let fraction = later_count as f64 / (count + later_count) as f64;
+        let (large, small, fraction) = larger_first(*self, count, *later, later_count);
         // n_a·(n_b/n), not n_a·n_b/n: the product of two counts overflows u64 from 2^32 on.
-        let (fraction, weight) = (W::splat(fraction), W::splat(count as f64 * fraction));
-        let f = (later.anchor.f - self.anchor.f) + (later.f - self.f);
-        let h = (later.anchor.h[0] - self.anchor.h[0]) + (later.h - self.h);
-        let mean_h = self.h + h * fraction;
-        let hh = self.hh + later.hh + h * h * weight;
-        let fh = (self.eh + self.slope * self.hh) + (later.eh + later.slope * later.hh) + f * h * weight;
-        let slope = Self::fitted_slope(fh, hh, self.anchor.h[0] + mean_h, self.slope);
-        let (a, b) = (self.with_slope(slope), later.with_slope(slope));
+        let weight = planted!("comoments_weight": count.max(later_count) as f64, later_count as f64) * fraction;
+        let (fraction, weight) = (W::splat(fraction), W::splat(weight));
+        let f = (small.anchor.f - large.anchor.f) + (small.f - large.f);
+        let h = (small.anchor.h[0] - large.anchor.h[0]) + (small.h - large.h);
+        let mean_h = large.h + h * fraction;
+        let hh = large.hh + small.hh + h * h * weight;
+        let fh = (large.eh + large.slope * large.hh) + (small.eh + small.slope * small.hh) + f * h * weight;
+        let slope = Self::fitted_slope(fh, hh, large.anchor.h[0] + mean_h, large.slope);
+        let (a, b) = (large.with_slope(slope), small.with_slope(slope));
         let e = f - slope * h;
         let ee = a.ee + b.ee + e * e * weight;
         let smallest = smallest_square::<W>();
         *self = Self {
-            anchor: self.anchor,
-            f: self.f + f * fraction,
+            anchor: large.anchor,
+            f: large.f + f * fraction,
             h: mean_h,
             slope,
             ee: unless_underflowed(ee, ee + slope * slope * hh, e, smallest),

@@ -4,6 +4,7 @@ use crate::draw::Draw;
 use crate::lanes::Lanes;
 use crate::moments::blocked::{Blocked, Kernel, State, Takes};
 use crate::moments::read::{Group, HasGroups, HasMeans, Means};
+use crate::planted::planted;
 
 /// Group means of f and one auxiliary: draw `i` of the stream belongs to group `i % G`.
 ///
@@ -95,7 +96,7 @@ impl<W: Lanes<Scalar = f64>, const G: usize> State for GroupsState<W, G> {
 
     #[inline(always)]
     fn merge(&mut self, count: u64, later: &Self, later_count: u64) {
-        let start = (count % G as u64) as usize;
+        let start = planted!("groups_rotation": (count % G as u64) as usize, 0);
         for (i, theirs) in later.means.iter().enumerate() {
             let group = (start + i) % G;
             let (here, there) = (size(count, group, G), size(later_count, i, G));

@@ -2,8 +2,9 @@
 
 use crate::draw::Draw;
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes, partials};
+use crate::moments::blocked::{Blocked, Kernel, State, Takes, larger_first, partials};
 use crate::moments::read::{HasMeans, Means};
+use crate::planted::planted;
 
 /// Means of f and of `K` auxiliaries, and nothing else: what plain Monte Carlo (`K = 0`) and the
 /// ratio of means (`K = 1`) need for a value. The standard error is unknown (NaN).
@@ -79,9 +80,12 @@ impl<W: Lanes<Scalar = f64>, const K: usize> State for SumsState<W, K> {
 
     #[inline(always)]
     fn merge(&mut self, count: u64, later: &Self, later_count: u64) {
-        let weight = W::splat(later_count as f64 / (count + later_count) as f64);
-        let apart = later.anchor.zip(self.anchor, W::sub).zip(later.relative.zip(self.relative, W::sub), W::add);
-        self.relative = self.relative.zip(apart, |mean, apart| mean + apart * weight);
+        let (large, small, fraction) = larger_first(*self, count, *later, later_count);
+        let apart = small.anchor.zip(large.anchor, W::sub).zip(small.relative.zip(large.relative, W::sub), W::add);
+        let relative = large
+            .relative
+            .zip(apart, |mean, apart| mean + apart * W::splat(planted!("sums_fraction": fraction, 1.0 - fraction)));
+        *self = Self { relative, ..large };
     }
     fn channel(&self, channel: usize) -> SumsState<f64, K> {
         SumsState {

@@ -2,7 +2,7 @@
 
 use crate::draw::Draw;
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes, partials};
+use crate::moments::blocked::{Blocked, Kernel, State, Takes, larger_first, partials};
 use crate::moments::read::{HasThirdMoments, ThirdMoments};
 
 /// Third central moments of f and one auxiliary. No estimator reads them; `predict` does.
@@ -138,16 +138,16 @@ impl<W: Lanes<Scalar = f64>> State for ThirdState<W> {
     /// Pairwise update of third moments (Pébay 2008, Eq. 2.1 for p = 3, and its mixed forms).
     #[inline(always)]
     fn merge(&mut self, count: u64, later: &Self, later_count: u64) {
-        let total = (count + later_count) as f64;
-        let fraction = later_count as f64 / total;
+        let (large, small, fraction) = larger_first(*self, count, *later, later_count);
         // Weights of the parts' second moments in the third, of products of the distances in the
         // second, and in the third.
-        let (mine, theirs) = (W::splat(fraction), W::splat(count as f64 / total));
-        let second = W::splat(count as f64 * fraction);
+        let (mine, theirs) = (W::splat(fraction), W::splat(1.0 - fraction));
+        let second = W::splat(count.max(later_count) as f64 * fraction);
         let third = second * (theirs - mine);
-        let (a, b) = (self.central, later.central);
-        let f = (later.anchor.f - self.anchor.f) + (b.f - a.f);
-        let h = (later.anchor.h[0] - self.anchor.h[0]) + (b.h - a.h);
+        let (a, b) = (large.central, small.central);
+        let f = (small.anchor.f - large.anchor.f) + (b.f - a.f);
+        let h = (small.anchor.h[0] - large.anchor.h[0]) + (b.h - a.h);
+        self.anchor = large.anchor;
         let across = |a: W, b: W| theirs * b - mine * a;
         let two = W::splat(2.0);
         let sum = a.zip(b, W::add);

@@ -3,9 +3,10 @@
 use crate::draw::Draw;
 use crate::error::{Error, weight_in_range};
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes, partials};
+use crate::moments::blocked::{Blocked, Kernel, State, Takes, larger_first, partials};
 use crate::moments::range::{magnitude, smallest_square, unless_underflowed};
 use crate::moments::read::{HasMeans, HasRatioMean, Means, RatioMoments, Spread};
+use crate::planted::planted;
 use crate::problem::Integrals;
 
 /// A number that each draw yields, per channel.
@@ -37,12 +38,14 @@ impl<V, const K: usize> Default for IntegrandOf<V, K> {
 impl<V: Lanes, const K: usize> Quantity for IntegrandOf<V, K> {
     type Lanes = V;
     type Draw = Draw<V, K>;
-    type Channel = ();
+    type Channel = IntegrandOf<f64, K>;
     #[inline(always)]
     fn of(&self, draw: &Draw<V, K>) -> V {
         draw.f
     }
-    fn channel(&self, _: usize) {}
+    fn channel(&self, _: usize) -> IntegrandOf<f64, K> {
+        IntegrandOf::default()
+    }
 }
 
 /// r = f/h′ with h′ = εH + (1−ε)h. Where f = 0 and h′ = 0, r is 0: then r·h′ = f holds, which is all
@@ -68,8 +71,10 @@ impl<V: Lanes> Quantity for RatioOf<V> {
     #[inline(always)]
     fn of(&self, draw: &Draw<V>) -> V {
         let h = self.floor + V::narrow(V::Wide::splat(1.0 - self.weight)) * draw.h[0];
-        let nothing = V::select(V::equal(draw.f, V::ZERO), V::ZERO, draw.f / h);
-        V::select(V::equal(h, V::ZERO), nothing, draw.f / h)
+        // h·0 is 0 unless h is infinite: then r is NaN, not a silent 0.
+        let ratio = draw.f / h + h * V::ZERO;
+        let nothing = V::select(V::equal(draw.f, V::ZERO), planted!("ratio_of_nothing": V::ZERO, ratio), ratio);
+        V::select(V::equal(h, V::ZERO), nothing, ratio)
     }
     fn channel(&self, channel: usize) -> RatioOf<f64> {
         RatioOf { weight: self.weight, floor: self.floor.widen().get(channel) }
@@ -195,13 +200,14 @@ impl<Q: Quantity, W: Lanes<Scalar = f64, Wide = W>, const S: usize> State for Un
 
     #[inline(always)]
     fn merge(&mut self, count: u64, later: &Self, later_count: u64) {
-        let fraction = later_count as f64 / (count + later_count) as f64;
-        let apart = (later.anchor - self.anchor) + (later.relative - self.relative);
-        self.relative = self.relative + apart * W::splat(fraction);
-        for (squares, later) in self.squares.iter_mut().zip(later.squares) {
-            let joint = *squares + later + apart * apart * W::splat(count as f64 * fraction);
-            *squares = unless_underflowed(joint, joint, apart, smallest_square::<W>());
-        }
+        let (large, small, fraction) = larger_first(*self, count, *later, later_count);
+        let weight = W::splat(count.max(later_count) as f64 * fraction);
+        let apart = (small.anchor - large.anchor) + (small.relative - large.relative);
+        let squares = core::array::from_fn(|i| {
+            let joint = large.squares[i] + small.squares[i] + apart * apart * weight;
+            unless_underflowed(joint, joint, apart, smallest_square::<W>())
+        });
+        *self = Self { relative: large.relative + apart * W::splat(fraction), squares, ..large };
     }
     fn channel(&self, channel: usize) -> Self::Channel {
         UnivariateState {
@@ -213,7 +219,7 @@ impl<Q: Quantity, W: Lanes<Scalar = f64, Wide = W>, const S: usize> State for Un
     }
 }
 
-impl<const S: usize, const K: usize> HasMeans<K> for UnivariateState<(), f64, S> {
+impl<const S: usize, const K: usize> HasMeans<K> for UnivariateState<IntegrandOf<f64, K>, f64, S> {
     /// The mean of f; the means of the auxiliaries are unknown (NaN).
     fn means(&self, _: u64) -> Means<K> {
         Means { f: self.anchor + self.relative, h: [f64::NAN; K] }
