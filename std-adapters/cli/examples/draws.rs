@@ -14,7 +14,7 @@
 //! | g | 1.5 − x | 5 | 4.74375 |
 //! | b | 1.9 − 1.8x | 2 | 1.8955 |
 
-use std::fmt::Write;
+use core::fmt::Write;
 
 /// Numbers in [0, 1) of Knuth's linear congruential generator.
 struct Uniform(u64);
@@ -27,7 +27,7 @@ impl Uniform {
 }
 
 /// The file.
-pub fn csv() -> String {
+pub(crate) fn csv() -> String {
     let mut csv = "f.r,f.g,f.b,h.r,h.g,h.b\n".to_owned();
     let mut uniform = Uniform(1);
     for _ in 0..200 {

@@ -89,7 +89,7 @@ pub struct ReportArguments {
     pub seed: u64,
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
-    pub threads: Option<std::num::NonZeroUsize>,
+    pub threads: Option<core::num::NonZeroUsize>,
     /// About how long two cores may measure, in seconds; decides how many replicates there are
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub budget: Option<f64>,

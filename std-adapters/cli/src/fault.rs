@@ -1,6 +1,6 @@
 //! What goes wrong: where, what, and what to do about it.
 
-use std::fmt;
+use core::fmt;
 use std::io;
 
 /// The exit code where the data or a file is bad.
@@ -73,7 +73,7 @@ impl fmt::Display for Fault {
     }
 }
 
-impl std::error::Error for Fault {}
+impl core::error::Error for Fault {}
 
 impl From<io::Error> for Fault {
     fn from(error: io::Error) -> Self {

@@ -3,7 +3,7 @@
 use crate::columns::{Columns, names_an_auxiliary};
 use crate::fault::Fault;
 use crate::output::listed;
-use std::str::FromStr;
+use core::str::FromStr;
 
 /// A known integral, as given on the command line.
 #[derive(Clone, Debug, PartialEq)]

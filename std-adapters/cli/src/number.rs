@@ -1,6 +1,6 @@
 //! One field to one finite number.
 
-use std::fmt;
+use core::fmt;
 
 /// Why a field is not a number that an estimator can use.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! A bar on a terminal, nothing elsewhere.
 
+use core::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use ratiocv_report::Progress;
-use std::time::Duration;
 
 /// A bar for reading a file of `bytes` bytes, or a counter where the size is not known. Hidden
 /// unless stderr is a terminal.

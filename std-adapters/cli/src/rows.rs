@@ -4,11 +4,11 @@
 //! within a line. That keeps line numbers exact, and an unclosed quote spoils its own row instead of
 //! swallowing all that follow.
 
+use core::mem;
+use core::ops::Range;
 use csv_core::{ReadRecordResult, Reader, ReaderBuilder, Terminator};
 use memchr::{memchr, memchr_iter};
 use std::io::{self, BufRead};
-use std::mem;
-use std::ops::Range;
 
 /// A line longer than this is not a row of numbers.
 const LONGEST_LINE: usize = 16 << 20;

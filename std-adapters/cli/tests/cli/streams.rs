@@ -1,7 +1,7 @@
 //! Long, piped and oddly written input.
 
 use crate::support::{estimate, file, json, ratiocv};
-use std::fmt::Write;
+use core::fmt::Write;
 use std::io::Read;
 use std::process::{Command, Stdio};
 
