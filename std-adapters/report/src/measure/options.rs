@@ -20,7 +20,7 @@ pub struct Options {
     pub budget_seconds: f64,
     /// ε of the defensive estimators.
     pub defensive_weight: f64,
-    /// A first look: at most 6 s of budget, at most 2⁸ draws.
+    /// A first look: at most 3 s of budget, at most 2⁸ draws.
     pub quick: bool,
 }
 
@@ -31,7 +31,7 @@ impl Default for Options {
             methods: Method::all().collect(),
             seed: 1,
             threads: None,
-            budget_seconds: 60.0,
+            budget_seconds: 45.0,
             defensive_weight: 0.01,
             quick: false,
         }

@@ -20,14 +20,14 @@ pub(super) struct Size {
 /// Draws per estimate: 2¹ up to this power of 2.
 const POWERS: u32 = 12;
 const QUICK_POWERS: u32 = 8;
-const QUICK_SECONDS: f64 = 6.0;
+const QUICK_SECONDS: f64 = 3.0;
 /// Of the budget, what the replicates get; the rest is for run times and populations.
 const SHARE: f64 = 0.75;
 /// What the nominal costs below are meant for.
 const NOMINAL_CORES: f64 = 2.0;
 /// Enough for a standard error of the MSE that means something, and more than enough.
 const LEAST: f64 = 64.0;
-const MOST: f64 = 131_072.0;
+const MOST: f64 = 65_536.0;
 /// Chunks of some 2 ms: long beside the cost of handing them out.
 const CHUNK_NANOSECONDS: f64 = 2e6;
 /// One measurement of a run time lasts at least about so long, that the clock's own steps do not matter.
@@ -58,7 +58,7 @@ pub(super) fn plan(options: &Options, channels: usize, problems: usize) -> Vec<S
             draws,
             replicates: (share / cost).clamp(LEAST, MOST) as u64,
             chunk: (CHUNK_NANOSECONDS / cost).max(1.0) as u64,
-            rounds: if options.quick { 7 } else { 11 },
+            rounds: if options.quick { 5 } else { 11 },
             repeats: (INTERVAL_NANOSECONDS / estimate_nanoseconds(draws, channels)).max(1.0) as u64,
         }
     };
@@ -84,7 +84,7 @@ mod tests {
     #[test]
     fn quick_is_bounded_whatever_the_budget() {
         let quick = plan(&Options { budget_seconds: 1e9, quick: true, ..Options::default() }, 1, 10);
-        let same = plan(&Options { budget_seconds: 6.0, quick: true, ..Options::default() }, 1, 10);
+        let same = plan(&Options { budget_seconds: 3.0, quick: true, ..Options::default() }, 1, 10);
         assert_eq!(quick, same);
         assert_eq!(quick.last().map(|size| size.draws), Some(256));
     }

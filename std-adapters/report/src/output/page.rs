@@ -34,12 +34,12 @@ pub(super) fn page(report: &Report) -> String {
     section(&mut page, report, "Error against run time", intro, &legend(report, &ERRORS), &errors);
     let defended = |problem: &ProblemReport| error(problem, &DEFENSIVE);
     let weight = report.provenance.defensive_weight;
-    let _ = write!(page, "<details><summary>The same on the defensive auxiliary (weight {weight})</summary>\n");
+    let _ = writeln!(page, "<details><summary>The same on the defensive auxiliary (weight {weight})</summary>");
     panels(&mut page, report, &legend(report, &DEFENSIVE), &defended);
     page.push_str("</details>\n");
     let biases = |problem: &ProblemReport| bias(problem, &BIASES);
-    let intro = "Marks are measured biases that stand out from noise, with ±2 standard errors; lines are predictions, \
-                 from 8 draws on. Below the grey area's edge (two standard errors of the quietest estimator) nothing can be \
+    let intro = "Marks are measured biases that stand out from noise, with ±3 standard errors; lines are predictions, \
+                 from 8 draws on. Below the grey area's edge (three standard errors of the quietest estimator) nothing can be \
                  seen. The ratio's bias falls as 1/N, that of Quenouille, Beale and Tin as 1/N², that of the mean of \
                  ratios not at all; Hartley–Ross and Mickey have none.";
     section(&mut page, report, "Bias against the number of draws", intro, &legend(report, &BIASES), &biases);
@@ -81,7 +81,7 @@ fn verdicts(report: &Report) -> String {
         };
         let _ = writeln!(
             rows,
-            "<tr><td><b>{}</b><br><span class=\"soft\">{}</span></td><td class=\"left\"><code>{}</code>{ties}</td><td>{}</td><td class=\"left\">{}</td></tr>",
+            "<tr><td><b>{}</b><br><span class=\"soft\">{}</span></td><td class=\"left\" data-name=\"least error\"><code>{}</code>{ties}</td><td data-name=\"RMSE at equal time\">{}</td><td class=\"left\" data-name=\"theory agrees\">{}</td></tr>",
             escaped(problem.problem.title()),
             escaped(problem.problem.about()),
             line.best.method.id(),
@@ -103,7 +103,7 @@ fn equal_times(report: &Report) -> String {
     let mut rows = String::new();
     for problem in &report.problems {
         let ratios = || problem.methods.iter().map(|method| method.equal.error_at_equal_time);
-        let best = ratios().map(|versus| versus.ratio()).fold(f64::INFINITY, f64::min);
+        let best = summary(problem).map_or(f64::NAN, |line| line.best.equal.error_at_equal_time.ratio());
         let cell = |cell: crate::Versus| {
             let class = match cell.ratio() {
                 ratio if ratio == best => " class=\"best\"",
@@ -116,7 +116,7 @@ fn equal_times(report: &Report) -> String {
     }
     format!(
         "<p>RMSE as a multiple of plain Monte Carlo's, when each estimator gets the time that plain takes for {} draws. \
-         Below 1 is a gain; the least of each row is marked.</p>\n\
+         Below 1 is a gain; the least of each row is marked (the mean of ratios is out of the running: its bias stays).</p>\n\
          <div class=\"scroll\"><table class=\"wide\">\n<thead><tr><th>problem</th>{names}</tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n",
         first.reference_draws
     )
@@ -135,7 +135,7 @@ fn section(
 }
 
 fn panels(page: &mut String, report: &Report, legend: &str, plot: &dyn Fn(&ProblemReport) -> String) {
-    let _ = write!(page, "{legend}<div class=\"panels\">\n");
+    let _ = writeln!(page, "{legend}<div class=\"panels\">");
     for problem in &report.problems {
         let _ = write!(page, "<figure><h3>{}</h3>\n{}</figure>\n", escaped(problem.problem.title()), plot(problem));
     }

@@ -5,7 +5,7 @@ use crate::{MethodReport, ProblemReport, Versus};
 
 /// One problem in one line.
 pub(super) struct Summary<'a> {
-    /// The estimator with the least error at equal time.
+    /// The consistent estimator with the least error at equal time.
     pub(super) best: &'a MethodReport,
     /// How many others cannot be told from it: within two standard errors.
     pub(super) ties: usize,
@@ -19,7 +19,9 @@ pub(super) struct Summary<'a> {
 pub(super) fn summary(problem: &ProblemReport) -> Option<Summary<'_>> {
     let error = |method: &MethodReport| method.equal.error_at_equal_time;
     let better = |a: &&MethodReport, b: &&MethodReport| error(a).ratio().total_cmp(&error(b).ratio());
-    let best = problem.methods.iter().min_by(better)?;
+    // What does not converge is nobody's best, however well it does with few draws.
+    let candidates = || problem.methods.iter().filter(|method| method.method.is_consistent());
+    let best = candidates().min_by(better)?;
     let tied = |other: &&MethodReport| match (error(best), error(other)) {
         (Versus::Exact, Versus::Exact) => true,
         (Versus::Times { ratio, std_error }, Versus::Times { ratio: other, std_error: their_error }) => {
@@ -30,7 +32,7 @@ pub(super) fn summary(problem: &ProblemReport) -> Option<Summary<'_>> {
     let dissenters = problem.methods.iter().filter(|method| !method.theory.agrees);
     Some(Summary {
         best,
-        ties: problem.methods.iter().filter(tied).count().saturating_sub(1),
+        ties: candidates().filter(tied).count().saturating_sub(1),
         dissenters: dissenters.map(|method| method.method.id()).collect(),
         methods: problem.methods.len(),
     })

@@ -13,7 +13,7 @@ pub(crate) fn bias(problem: &ProblemReport, ids: &[&str]) -> String {
         let mut series = Series::new(look(method.method.id()));
         for (index, point) in method.points.iter().enumerate() {
             let (draws, figures) = (point.draws as f64, &point.relative);
-            let (size, noise) = (libm::fabs(figures.bias), 2.0 * figures.bias_std_error);
+            let (size, noise) = (libm::fabs(figures.bias), 3.0 * figures.bias_std_error);
             if noise > EXACT {
                 // The quietest estimator's noise.
                 match floor.get_mut(index) {
@@ -32,6 +32,9 @@ pub(crate) fn bias(problem: &ProblemReport, ids: &[&str]) -> String {
             method.points.iter().map(|point| (point.draws as f64, libm::fabs(point.relative.predicted.bias)));
         series.line = predicted.skip_while(|(draws, _)| *draws < 8.0).filter(|(_, size)| *size > least).collect();
         all.push(series);
+    }
+    if floor.is_empty() {
+        return "<p class=\"empty\">No bias beyond rounding.</p>\n".into();
     }
     // Of its own colour, the floor also keeps the panel's range where nothing is biased.
     let mut ghost = Series::new(look("mc"));
