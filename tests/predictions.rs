@@ -1,6 +1,8 @@
 //! Predictions against golden constants, exact moments, and the terms of the exact expansion.
 
-use ratiocv_core::moments::{Accumulate, Blocked, ComomentsBlock, Joined, Moments, RatioVariance, ThirdBlock};
+use ratiocv_core::moments::{
+    Accumulate, Blocked, ComomentsBlock, Joined, Moments, RatioOf, RatioVariance, ThirdBlock, UnivariateBlock,
+};
 use ratiocv_core::predict::{Order, Population, Predict, Prediction};
 use ratiocv_core::{
     Beale, Draw, Estimator, HartleyRoss, Integrals, MeanOfRatios, Mickey, Plain, Quenouille, RatioOfMeans, Reads, Tin,
@@ -154,20 +156,13 @@ fn second_order_terms_are_those_of_the_exact_moments() {
     }
 }
 
+/// Everything that predictions read.
+type All = Blocked<f64, Joined<ComomentsBlock<f64>, [UnivariateBlock<RatioOf<f64>, 1>; 2], (), (), ThirdBlock<f64>>>;
+
 /// A sample in which each point occurs in proportion to its probability has the law's moments, up to
 /// the divisors.
 #[test]
 fn sample_moments_are_population_moments() {
-    type All = Blocked<
-        f64,
-        Joined<
-            ComomentsBlock<f64>,
-            [ratiocv_core::moments::UnivariateBlock<ratiocv_core::moments::RatioOf<f64>, 1>; 2],
-            (),
-            (),
-            ThirdBlock<f64>,
-        >,
-    >;
     for law in seed().distributions.iter().filter(|law| law.name != "degenerate_h") {
         let right = population(&law.support, 0.125);
         let integrals = Integrals::new([right.h]);
@@ -195,6 +190,34 @@ fn sample_moments_are_population_moments() {
         close(ours.defended.1.mean, right.defended.1.mean, "ρ′");
         close(ours.defended.1.variance, unbias * right.defended.1.variance, "Var r′");
     }
+}
+
+/// The noise of h̄ is not held against estimators that take it out: f = 2h has no error to predict.
+#[test]
+fn samples_of_proportional_draws_predict_no_error() {
+    let integrals = Integrals::new([100.0]);
+    let ratios = Blocked::both(RatioVariance::default(), RatioVariance::defensive(0.01, &integrals).unwrap());
+    let mut moments = All::with_ratios(ratios);
+    // h̄ = 99.5: half a per cent off.
+    for i in 0..50 {
+        let h = 99.5 + f64::from(i) - 24.5;
+        moments.add(Draw::new(2.0 * h, h));
+    }
+    let population = Population::from_sample(&moments.channel(0), 50, 100.0, 0.01);
+    for prediction in [
+        RatioOfMeans.predict(&population, 50, Order::Second),
+        Beale.predict(&population, 50, Order::Second),
+        MeanOfRatios.predict(&population, 50, Order::Second),
+        HartleyRoss.predict(&population, 50, Order::Second),
+        Mickey.predict(&population, 50, Order::Second),
+    ] {
+        assert_close(prediction.mse, 0.0, 1e-10, "MSE");
+        assert_close(prediction.bias, 0.0, 1e-10, "bias");
+    }
+    assert!(Plain.predict(&population, 50, Order::Second).mse > 10.0);
+    let defended = RatioOfMeans.defensive(0.01).unwrap().predict(&population, 50, Order::Second).mse;
+    let right = RatioOfMeans.defensive(0.01).unwrap().estimate(&moments, &integrals).unwrap().std_error;
+    assert_close(defended.sqrt(), right, 0.03 * right, "defensive ratio");
 }
 
 #[test]

@@ -106,6 +106,11 @@ impl Flags {
         Self::ALL.iter().filter(move |(flag, _)| self.contains(*flag)).map(|(_, name)| *name)
     }
 
+    /// These but `others`.
+    pub(crate) const fn without(self, others: Self) -> Self {
+        Self(self.0 & !others.0)
+    }
+
     /// `flag` if `condition`, else nothing.
     pub(crate) const fn when(condition: bool, flag: Self) -> Self {
         if condition { flag } else { Self::NONE }

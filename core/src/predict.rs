@@ -4,7 +4,7 @@
 //! plain Monte Carlo, the mean of ratios and Hartley–Ross.
 
 use crate::estimator::{Beale, Defensive, HartleyRoss, MeanOfRatios, Mickey, Plain, Quenouille, RatioOfMeans, Tin};
-use crate::moments::{HasComoments, HasRatioMean, HasThirdMoments, Spread};
+use crate::moments::{HasComoments, HasRatioMean, HasThirdMoments, Means};
 use crate::planted::planted;
 
 /// Moments of one channel of the law of a draw (y, x), x in units of its integral H.
@@ -98,26 +98,29 @@ impl Population {
     /// The moments that a sample of `count` draws suggests for auxiliary integral `integral`, with
     /// the ratios on the raw auxiliary and on that of defensive weight `weight`.
     ///
-    /// Covariances have the divisor N − 1; third moments N, and are biased by O(1/N). Below 2 draws
-    /// everything but `f` is NaN.
+    /// The auxiliary is taken in units of its sample mean, not of H: otherwise the noise of h̄, which
+    /// a ratio takes out, would be counted against it, and f = 2h would seem to have an error.
+    /// Covariances have the divisor N − 1; third moments N, and are biased by O(1/N). Below 2 draws,
+    /// or where h̄ = 0, everything but `f` and `h` is NaN or infinite.
     pub fn from_sample<S>(moments: &S, count: u64, integral: f64, weight: f64) -> Self
     where
         S: HasComoments + HasRatioMean + HasThirdMoments,
     {
         let n = count as f64;
         let divisor = if count < 2 { f64::NAN } else { n - 1.0 };
-        let ratio = |weight| {
+        let Means { f, h: [h] } = moments.means(count);
+        let ratio = |weight: f64| {
+            let unit = (weight * integral + (1.0 - weight) * h) / integral;
             moments.ratio(weight, integral).map_or(RatioPopulation::UNKNOWN, |ratio| RatioPopulation {
-                mean: ratio.mean,
-                variance: ratio.squares.map_or(f64::NAN, |squares| squares / divisor),
+                mean: unit * ratio.mean,
+                variance: ratio.squares.map_or(f64::NAN, |squares| unit * unit * squares / divisor),
             })
         };
-        let (spread, third, h) = (moments.comoments(), moments.third(), integral);
-        let Spread { hh, .. } = spread;
+        let (spread, third) = (moments.comoments(), moments.third());
         Self {
-            f: moments.means(count).f,
-            h,
-            c20: hh / divisor / h / h,
+            f,
+            h: integral,
+            c20: spread.hh / divisor / h / h,
             f_c11: spread.fh() / divisor / h,
             ff_c02: spread.ff() / divisor,
             c30: third.hhh / n / h / h / h,
@@ -161,7 +164,9 @@ impl Population {
 
     /// F²V = F²(C20 + C02 − 2C11) = Var(y − R·x): the first-order MSE of every ratio, times N.
     fn v(&self) -> f64 {
-        self.f * self.f * self.c20 + self.ff_c02 - 2.0 * self.f * self.f_c11
+        let v = self.f * self.f * self.c20 + self.ff_c02 - 2.0 * self.f * self.f_c11;
+        // For f ∝ h it is rounding noise, of either sign.
+        if v < 0.0 { 0.0 } else { v }
     }
 
     /// The 1/N² coefficient of the MSE of Beale and Tin: F²\[C02C20 + C11² − 4C11C20 + 2C20²\].

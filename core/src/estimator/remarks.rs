@@ -24,7 +24,13 @@ impl Remarks {
     pub(super) fn without_auxiliary<S: HasMeans<K>, const K: usize>(sample: &Sample<'_, S>) -> Self {
         // f/f: an auxiliary about which there is nothing to remark.
         let mean_f = sample.moments.means(sample.count).f;
-        Self::new(sample, mean_f, if mean_f == 0.0 { 0.0 } else { 1.0 })
+        let mut remarks = Self::new(sample, mean_f, if mean_f == 0.0 { 0.0 } else { 1.0 });
+        // Nor is it f's concern if squares of an auxiliary left the range.
+        if let Some(spread) = remarks.spread.as_mut().filter(|spread| spread.ff().is_finite()) {
+            *spread = Spread { slope: 0.0, ee: spread.ff(), eh: 0.0, hh: 0.0 };
+            remarks.flags = remarks.flags.without(Flags::OVERFLOW | Flags::UNDERFLOW);
+        }
+        remarks
     }
 
     /// Of an estimator that reads ratios f/h alone, h with the integral `integral`.
