@@ -5,10 +5,16 @@ use crate::output::plots::axis::Scale;
 use crate::output::plots::panel::{Panel, Series};
 use crate::output::plots::style::{BLUE, GREEN, GREY, Look, Mark, VERMILLION};
 use crate::output::plots::swatch;
-use crate::problems::Role;
+use crate::problems::{Curve, Role};
 
-fn look(role: Role, group: usize) -> Look {
-    let colour = if role == Role::Proposal { GREY } else { [VERMILLION, GREEN, BLUE][group % 3] };
+fn look(curve: &Curve) -> Look {
+    let Curve { role, group, .. } = *curve;
+    let colour = match role {
+        Role::Proposal => GREY,
+        // With one channel, colours are free to tell f from h.
+        Role::Auxiliary if curve.channel.is_empty() => BLUE,
+        _ => [VERMILLION, GREEN, BLUE][group % 3],
+    };
     let dash = match role {
         Role::Integrand => (1, 0),
         Role::Auxiliary => (7, 4),
@@ -20,8 +26,13 @@ fn look(role: Role, group: usize) -> Look {
 /// f/F and h/H, and the sampling density where it is not uniform.
 pub(crate) fn functions(problem: &ProblemReport) -> String {
     let (axis, curves) = problem.problem.curves();
-    let series =
-        curves.into_iter().map(|curve| Series { line: curve.points, ..Series::new(look(curve.role, curve.group)) });
+    let series = curves.into_iter().map(|curve| Series {
+        look: look(&curve),
+        line: curve.points,
+        points: vec![],
+        band: vec![],
+        bars: vec![],
+    });
     Panel {
         title: format!("Integrand and auxiliary: {}", problem.problem.title()),
         x: (axis, Scale::Linear),
@@ -40,5 +51,5 @@ pub(crate) fn legend(problem: &ProblemReport) -> Vec<(String, String)> {
         Role::Auxiliary => format!("h/H {channel}"),
         Role::Proposal => "g, the density of the draws".into(),
     };
-    curves.iter().map(|curve| (swatch(look(curve.role, curve.group)), name(curve.role, &curve.channel))).collect()
+    curves.iter().map(|curve| (swatch(look(curve)), name(curve.role, &curve.channel))).collect()
 }
