@@ -14,9 +14,9 @@ use crate::draw::Draw;
 use crate::estimate::Estimate;
 use crate::estimator::Estimator;
 use crate::flags::Flags;
+use crate::integrals::Integrals;
 use crate::lanes::{Lanes, Scalar};
 use crate::moments::{Accumulate, Merge, Moments};
-use crate::problem::Integrals;
 
 /// A broken law.
 pub type Law = Result<(), &'static str>;

@@ -53,6 +53,7 @@ mod error;
 mod estimate;
 mod estimator;
 mod flags;
+mod integrals;
 mod lanes;
 pub mod moments;
 mod planted;
@@ -69,8 +70,9 @@ pub use estimator::{
     RatioOfMeans, Reads, Sample, Tin,
 };
 pub use flags::Flags;
+pub use integrals::Integrals;
 pub use lanes::{Lanes, PerLane, Scalar, Single};
 pub use problem::{
-    Auxiliaries, Auxiliary, Integrals, Integrand, Problem, Proposal, Uniform, UniformCube, WithIntegral, unit_interval,
+    Auxiliaries, Auxiliary, Integrand, Problem, Proposal, Uniform, UniformCube, WithIntegral, unit_interval,
 };
 pub use spectrum::Spectrum;

@@ -3,10 +3,10 @@
 use crate::error::Error;
 use crate::estimate::ChannelEstimate;
 use crate::estimator::{Estimator, Reads, Sample};
+use crate::integrals::Integrals;
 use crate::lanes::Lanes;
 use crate::moments::{Group, HasComoments, HasGroups, HasMeans, HasRatioMean, Means, RatioMoments, Spread, Tails};
 use crate::planted::planted;
-use crate::problem::Integrals;
 
 /// `E` on h′ = εH + (1−ε)h, which has the same integral H and keeps away from 0.
 ///

@@ -4,9 +4,9 @@ use crate::error::Error;
 use crate::estimate::ChannelEstimate;
 use crate::estimator::{Estimator, Plain, Reads, Sample};
 use crate::flags::Flags;
+use crate::integrals::Integrals;
 use crate::lanes::Lanes;
 use crate::moments::HasMeans;
-use crate::problem::Integrals;
 
 /// `E`, but the plain mean in each channel where `E` raises DENOM_ILL.
 ///

@@ -5,10 +5,10 @@ use crate::estimate::ChannelEstimate;
 use crate::estimator::remarks::Remarks;
 use crate::estimator::{Estimator, Reads, Sample, enough_draws};
 use crate::flags::Flags;
+use crate::integrals::Integrals;
 use crate::lanes::Lanes;
 use crate::moments::{Blocked, HasMeans, HasRatioMean, IntegrandOf, Joined, RatioOf, UnivariateBlock};
 use crate::planted::planted;
-use crate::problem::Integrals;
 
 /// H·r̄ with r = f/h.
 ///

@@ -26,9 +26,9 @@ pub use tin::Tin;
 use crate::draw::Draw;
 use crate::error::{Error, weight_in_range};
 use crate::estimate::{ChannelEstimate, Estimate};
+use crate::integrals::Integrals;
 use crate::lanes::Lanes;
 use crate::moments::{Accumulate, Merge, Moments};
-use crate::problem::Integrals;
 use num_traits::float::FloatCore;
 
 /// One channel's moments, as an estimator sees them.

@@ -4,9 +4,9 @@ use crate::error::Error;
 use crate::estimate::ChannelEstimate;
 use crate::estimator::remarks::Remarks;
 use crate::estimator::{Estimator, Reads, Sample, enough_draws};
+use crate::integrals::Integrals;
 use crate::lanes::Lanes;
 use crate::moments::{HasMeans, Mean, Variance};
-use crate::problem::Integrals;
 
 /// The mean ȳ of f/g: vector-valued importance sampling.
 ///

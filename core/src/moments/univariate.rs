@@ -2,12 +2,12 @@
 
 use crate::draw::Draw;
 use crate::error::{Error, weight_in_range};
+use crate::integrals::Integrals;
 use crate::lanes::Lanes;
 use crate::moments::blocked::{Blocked, Kernel, State, Takes, larger_first, partials};
 use crate::moments::range::{magnitude, smallest_square, unless_underflowed};
 use crate::moments::read::{HasMeans, HasRatioMean, Means, RatioMoments, Spread};
 use crate::planted::planted;
-use crate::problem::Integrals;
 
 /// A number that each draw yields, per channel.
 ///

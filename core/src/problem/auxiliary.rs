@@ -1,7 +1,7 @@
 //! Functions that resemble the integrand and whose integrals are known.
 
+use crate::integrals::Integrals;
 use crate::lanes::Lanes;
-use crate::problem::Integrals;
 
 /// An auxiliary h over points `X`, with its known integral.
 ///

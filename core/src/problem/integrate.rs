@@ -4,9 +4,10 @@ use crate::draw::Draw;
 use crate::error::Error;
 use crate::estimate::Estimate;
 use crate::estimator::{Estimator, Reads};
+use crate::integrals::Integrals;
 use crate::lanes::Lanes;
 use crate::moments::{Accumulate, BLOCK, Moments};
-use crate::problem::{Auxiliaries, Integrals, Integrand, Proposal};
+use crate::problem::{Auxiliaries, Integrand, Proposal};
 use core::marker::PhantomData;
 use rand_core::Rng;
 

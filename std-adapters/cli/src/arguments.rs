@@ -2,8 +2,9 @@
 
 use crate::intake::OnBadDraw;
 use crate::integrals::Given;
+use crate::output::Format;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use ratiocv_core::{Defensive, Plain};
 use ratiocv_report::catalogue::Method;
 use ratiocv_report::problems::Problem;
@@ -126,17 +127,6 @@ impl EstimateArguments {
     pub fn methods(&self) -> Vec<Method> {
         Method::all().filter(|method| self.estimators.is_empty() || self.estimators.contains(method)).collect()
     }
-}
-
-/// How to print estimates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    /// For reading
-    Table,
-    /// One object
-    Json,
-    /// One row per estimate
-    Csv,
 }
 
 /// Estimators by their ids; an unknown one is answered with the nearest and the list.

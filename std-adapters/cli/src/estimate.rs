@@ -1,14 +1,15 @@
 //! `ratiocv estimate`: every estimator, applied to draws that the user already has.
 
-use crate::arguments::{EstimateArguments, Format};
+use crate::arguments::EstimateArguments;
 use crate::columns::Columns;
 use crate::fault::Fault;
 use crate::intake::{Intake, unreadable};
 use crate::integrals;
-use crate::output;
+use crate::output::{self, Format};
 use crate::progress;
 use crate::rows::Rows;
 use crate::verdict::Verdict;
+use crate::words;
 use ratiocv_report::catalogue::Method;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Write, stdin};
@@ -70,11 +71,11 @@ pub fn estimate(
     let verdict = Verdict::new(file, &columns, &intake, known, arguments.defensive, &methods);
     // Remarks that cannot be told from the output; a closed stderr is no reason to fail.
     if let Some(first) = &intake.first_skipped {
-        let _ = writeln!(notes, "note: skipped {}; the first is {first}", output::rows(intake.skipped));
+        let _ = writeln!(notes, "note: skipped {}; the first is {first}", words::rows(intake.skipped));
     }
     let assumed = verdict.assumed();
     if arguments.format != Format::Table && !assumed.is_empty() && methods != [Method::PLAIN] {
-        let _ = writeln!(notes, "note: no --integral for {}: taken to be 1", output::listed(&assumed));
+        let _ = writeln!(notes, "note: no --integral for {}: taken to be 1", words::listed(&assumed));
     }
     output::print(&verdict, arguments.format, out)
 }

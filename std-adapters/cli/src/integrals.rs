@@ -2,7 +2,7 @@
 
 use crate::columns::{Columns, names_an_auxiliary};
 use crate::fault::Fault;
-use crate::output::listed;
+use crate::words::listed;
 use core::str::FromStr;
 
 /// A known integral, as given on the command line.

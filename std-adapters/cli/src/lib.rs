@@ -18,3 +18,4 @@ pub mod progress;
 pub mod report;
 pub mod rows;
 pub mod verdict;
+pub mod words;

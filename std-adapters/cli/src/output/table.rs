@@ -1,8 +1,9 @@
 //! A table to read on a terminal, and the verdict in words.
 
 use crate::flag_help::meaning;
-use crate::output::{counted, listed, number::significant, rows};
+use crate::output::number::significant;
 use crate::verdict::{Line, Verdict};
+use crate::words::{counted, listed, rows};
 use comfy_table::{Cell, CellAlignment, LineStyle, Table, TableStyle};
 use ratiocv_core::Flags;
 use ratiocv_report::catalogue::Method;
