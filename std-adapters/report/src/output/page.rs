@@ -30,7 +30,8 @@ pub(super) fn page(report: &Report) -> String {
     let errors = |problem: &ProblemReport| error(problem, &ERRORS);
     let intro = "Left and low is good. Black dashes are plain Monte Carlo; a curve below it is a gain. Each mark \
                  doubles the number of draws, from 2. Bands are ±2 standard errors. A curve that levels off has a bias \
-                 that does not vanish. What is exact to rounding is not drawn.";
+                 that does not vanish. The step at 64 draws is real: from there on they are summed in blocks. What is exact \
+                 to rounding is not drawn.";
     section(&mut page, report, "Error against run time", intro, &legend(report, &ERRORS), &errors);
     let defended = |problem: &ProblemReport| error(problem, &DEFENSIVE);
     let weight = report.provenance.defensive_weight;
