@@ -15,7 +15,7 @@ const RADIANCE: [Rgb; 3] = [Spectrum([3000.0, 5.0, 6.0]), Spectrum([3.0, 3000.0,
 /// Luminance of red, green and blue.
 const LUMINANCE: Rgb = Spectrum([0.212671, 0.715160, 0.072169]);
 /// The part of each light that is not occluded.
-const VISIBLE: [f64; 3] = [0.95, 0.9, 0.85];
+const VISIBLE: [f64; 3] = [0.95, 0.9, 0.875];
 
 /// The probability with which each light is chosen: its share of the luminance.
 fn choice() -> [f64; 3] {
@@ -76,7 +76,7 @@ impl Solved for ThreeLights {
     const DESCRIPTION: Description = Description {
         id: "three-lights",
         title: "Three coloured lights, one chosen by luminance",
-        formula: "radiances (3000, 5, 6), (3, 3000, 4), (4.8, 5.8, 3000), of which 0.95, 0.9 and 0.85 are visible; \
+        formula: "radiances (3000, 5, 6), (3, 3000, 4), (4.8, 5.8, 3000), of which 0.95, 0.9 and 0.875 are visible; \
                   light i with probability p(i) ∝ luminance, h_j = p_j(i) = channel j's share of its radiance at light i",
         why: "The colour noise of next-event estimation: choosing by luminance starves red and blue, and h_j/p knows it.",
     };

@@ -101,11 +101,11 @@ fn decades(from: f64, to: f64) -> Vec<f64> {
     (1..).map(|step| whole(step).collect::<Vec<_>>()).find(|labels| labels.len() <= 7).unwrap_or_default()
 }
 
-/// Some five round numbers.
+/// Some four to seven round numbers.
 fn even(from: f64, to: f64) -> Vec<f64> {
     let raw = (to - from) / 5.0;
     let unit = libm::pow(10.0, libm::floor(libm::log10(raw)));
-    let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * unit).find(|step| *step >= raw).unwrap_or(raw);
+    let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * unit).find(|step| *step >= 0.7 * raw).unwrap_or(raw);
     let first = libm::ceil(from / step) as i64;
     (first..=libm::floor(to / step) as i64).map(|k| k as f64 * step).collect()
 }
