@@ -97,10 +97,11 @@ impl Verdict {
         }
     }
 
-    /// The estimate of `channel` with the least predicted MSE, if any has a prediction; the first of
-    /// equals.
+    /// The estimate of `channel` with the least predicted MSE of a consistent estimator, if any has a
+    /// prediction; the first of equals. The mean of ratios is printed but never favoured: more draws
+    /// would not mend it.
     pub fn favoured(&self, channel: usize) -> Option<&Line> {
-        self.least(channel, |_| true)
+        self.least(channel, Method::is_consistent)
     }
 
     /// The same among unbiased estimators.

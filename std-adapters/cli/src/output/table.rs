@@ -63,7 +63,10 @@ fn table(verdict: &Verdict) -> Table {
 
 fn print_favoured(verdict: &Verdict, out: &mut dyn Write) -> io::Result<()> {
     let draws = counted(verdict.draws, "draw");
-    writeln!(out, "\nLeast predicted RMSE at {draws} (predicted from these same draws: a guide, not a promise):")?;
+    writeln!(
+        out,
+        "\nLeast predicted RMSE of a consistent estimator at {draws} (predicted from these same draws: a guide, not a promise):"
+    )?;
     for (channel, name) in verdict.channels.iter().enumerate() {
         let Some(best) = verdict.favoured(channel) else {
             writeln!(out, "  {name}: no prediction holds; draw more")?;

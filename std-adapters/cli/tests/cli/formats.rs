@@ -56,7 +56,7 @@ fn the_table_says_it_in_words() {
         "channel   estimator   auxiliary",
         "r         mc          -           10.00000        1.50",
         "r         ratio       h           1.000000       0.500",
-        "Least predicted RMSE at 2 draws (predicted from these same draws: a guide, not a promise):",
+        "Least predicted RMSE of a consistent estimator at 2 draws (predicted from these same draws: a guide, not a promise):",
     ] {
         assert!(run.out.contains(part), "no {part:?} in:\n{}", run.out);
     }
