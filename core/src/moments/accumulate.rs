@@ -1,6 +1,7 @@
 //! What every accumulator of draws can do.
 
 use crate::draw::Draw;
+use crate::error::Error;
 use crate::lanes::Lanes;
 
 /// Takes draws of type `D` and keeps moments of them.
@@ -23,6 +24,43 @@ pub trait Accumulate<D> {
     /// Adds draws in order: faster than one by one from 64 draws on.
     fn add_batch(&mut self, draws: &[D]);
 }
+
+/// The entry for renderers that keep f and h of their samples in arrays of their own.
+///
+/// *Implemented by* every accumulator of draws with one auxiliary; *called by* such renderers.
+pub trait AccumulateSlices<V: Lanes>: Accumulate<Draw<V>> {
+    /// Adds the draws (`f[i]`, `h[i]`) in order: the same bits as [`add_batch`](Accumulate::add_batch)
+    /// of them in calls of [`BLOCK`](super::BLOCK) draws.
+    ///
+    /// ```
+    /// use ratiocv_core::{moments::{AccumulateSlices, Moments, Sums}, Error};
+    /// let mut moments = Sums::<f32>::default();
+    /// moments.add_slices(&[1.0, 2.0, 3.0], &[0.5, 1.0, 1.5])?;
+    /// assert_eq!(moments.count(), 3);
+    /// let error = moments.add_slices(&[1.0, 2.0], &[0.5]).unwrap_err();
+    /// assert_eq!(error, Error::LengthMismatch { what: "h", expected: 2, got: 1 });
+    /// assert_eq!(moments.count(), 3); // nothing was added, nothing was lost
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::LengthMismatch`] if there are not as many `h` as `f`; then nothing is added.
+    fn add_slices(&mut self, f: &[V], h: &[V]) -> Result<(), Error> {
+        if f.len() != h.len() {
+            return Err(Error::LengthMismatch { what: "h", expected: f.len(), got: h.len() });
+        }
+        for (f, h) in f.chunks(super::BLOCK).zip(h.chunks(super::BLOCK)) {
+            let mut draws = [Draw::ZERO; super::BLOCK];
+            for ((draw, f), h) in draws.iter_mut().zip(f).zip(h) {
+                *draw = Draw::new(*f, *h);
+            }
+            self.add_batch(draws.get(..f.len()).unwrap_or_default());
+        }
+        Ok(())
+    }
+}
+
+impl<V: Lanes, M: Accumulate<Draw<V>>> AccumulateSlices<V> for M {}
 
 /// Appends what another accumulator has seen.
 ///

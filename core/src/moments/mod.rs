@@ -21,7 +21,7 @@ mod sums;
 mod third;
 mod univariate;
 
-pub use accumulate::{Accumulate, Merge, Moments, Widened};
+pub use accumulate::{Accumulate, AccumulateSlices, Merge, Moments, Widened};
 pub use blocked::{BLOCK, Blocked, Kernel, State, Takes};
 pub use comoments::{Comoments, ComomentsBlock, ComomentsState};
 pub use extremes::{Extremes, ExtremesBlock, ExtremesState, MayHaveTails};
