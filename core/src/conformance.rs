@@ -46,7 +46,9 @@ pub fn all<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
     scales_exactly(estimator, &empty, draws, integrals)
 }
 
-/// `draws`, added one by one.
+/// `draws`, added one by one. Not inlined: the laws call it in many places, and accumulators are large
+/// when inlined.
+#[inline(never)]
 fn one_by_one<V: Lanes, M: Accumulator<V>>(mut moments: M, draws: &[Draw<V>]) -> M {
     for draw in draws {
         moments.add(*draw);
@@ -55,11 +57,13 @@ fn one_by_one<V: Lanes, M: Accumulator<V>>(mut moments: M, draws: &[Draw<V>]) ->
 }
 
 /// `draws`, added at once.
+#[inline(never)]
 fn at_once<V: Lanes, M: Accumulator<V>>(mut moments: M, draws: &[Draw<V>]) -> M {
     moments.add_batch(draws);
     moments
 }
 
+#[inline(never)]
 fn read<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
     estimator: &E,
     moments: &M,
@@ -214,7 +218,7 @@ pub fn scales_exactly<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
         let integrals = &Integrals::new([integrals.0[0] * h.widen()]);
         let mut moments = empty(integrals);
         for draw in draws {
-            moments.add(Draw::new(draw.f * f, draw.h[0] * h));
+            moments = one_by_one(moments, &[Draw::new(draw.f * f, draw.h[0] * h)]);
         }
         read(estimator, &moments, integrals)
     };

@@ -176,3 +176,64 @@ fn run_defended<E: Runs>(estimator: E, draws: &[(f64, f64)]) -> f64 {
     let mixed: Vec<_> = draws.iter().map(|(f, h)| (*f, 0.01 + 0.99 * h)).collect();
     run(estimator, &mixed, 1.0).value
 }
+
+/// Value and error of H·ȳ/x̄ from deviations from 1e9, which are exact. All almost unbiased ratios agree
+/// with it to 1e-9 relative on the draws of [`offset`].
+pub(crate) fn ratio_at_1e9(draws: &[(f64, f64)], integral: f64) -> (f64, f64) {
+    let (f, h) = mean_deviations(draws);
+    let c = (1e9 + f) / (1e9 + h);
+    (c * integral, residual_error(draws, c))
+}
+
+/// The means of f and h, less 1e9.
+pub(crate) fn mean_deviations(draws: &[(f64, f64)]) -> (f64, f64) {
+    let n = draws.len() as f64;
+    draws.iter().fold((0.0, 0.0), |(f, h), d| (f + (d.0 - 1e9) / n, h + (d.1 - 1e9) / n))
+}
+
+/// The standard error of the mean of f − c·h, by its definition.
+pub(crate) fn residual_error(draws: &[(f64, f64)], c: f64) -> f64 {
+    let (n, (f, h)) = (draws.len() as f64, mean_deviations(draws));
+    let square = |d: &(f64, f64)| (d.0 - 1e9 - f - c * (d.1 - 1e9 - h)).powi(2);
+    (draws.iter().map(square).sum::<f64>() / (n - 1.0) / n).sqrt()
+}
+
+/// The tests of one estimator, in the fixed order.
+macro_rules! ladder {
+    ($estimator:ident, one draw $one:expr, by hand $hand:block, at 1e9 $offset:expr) => {
+        #[test]
+        fn a_empty() {
+            crate::ladder::empty($estimator);
+        }
+        #[test]
+        fn b_one_draw() {
+            crate::ladder::one_draw($estimator, $one);
+        }
+        #[test]
+        fn c_constant() {
+            crate::ladder::constant($estimator);
+        }
+        #[test]
+        fn d_asymmetric_by_hand() {
+            $hand
+        }
+        #[test]
+        fn e_offset() {
+            crate::ladder::offset($estimator, $offset);
+        }
+        #[test]
+        fn f_split_at_every_index() {
+            crate::ladder::split_everywhere($estimator);
+            crate::ladder::value_tier($estimator);
+        }
+        #[test]
+        fn g_hardly_numbers() {
+            crate::ladder::hardly_numbers($estimator);
+        }
+        #[test]
+        fn h_near_zero_denominator() {
+            crate::ladder::near_zero_denominator($estimator);
+        }
+    };
+}
+pub(crate) use ladder;

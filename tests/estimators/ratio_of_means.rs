@@ -1,53 +1,17 @@
 use crate::ladder;
 use ratiocv_core::RatioOfMeans;
 
-#[test]
-fn a_empty() {
-    ladder::empty(RatioOfMeans);
+ladder::ladder! {
+    RatioOfMeans,
+    one draw 7.5,
+    by hand {
+        // 3·4/2; e = f − 2h = −1, −4, 0, 5, Σe² = 42, √(42/3/4).
+        ladder::asymmetric(RatioOfMeans, 6.0, 1.870_829);
+    },
+    at 1e9 ladder::ratio_at_1e9
 }
 
 #[test]
-fn b_one_draw() {
-    ladder::one_draw(RatioOfMeans, 7.5);
-}
-
-#[test]
-fn c_constant() {
-    ladder::constant(RatioOfMeans);
+fn proportional() {
     ladder::proportional(RatioOfMeans);
-}
-
-#[test]
-fn d_asymmetric_by_hand() {
-    // 3·4/2; e = f − 2h = −1, −4, 0, 5, Σe² = 42, √(42/3/4).
-    ladder::asymmetric(RatioOfMeans, 6.0, 1.870_829);
-}
-
-#[test]
-fn e_offset() {
-    ladder::offset(RatioOfMeans, |draws, integral| {
-        let n = draws.len() as f64;
-        // Deviations from 1e9, exact.
-        let (f, h) = draws.iter().fold((0.0, 0.0), |(f, h), d| (f + (d.0 - 1e9) / n, h + (d.1 - 1e9) / n));
-        let c = (1e9 + f) / (1e9 + h);
-        let square = |d: &(f64, f64)| (d.0 - 1e9 - f - c * (d.1 - 1e9 - h)).powi(2);
-        let error = (draws.iter().map(square).sum::<f64>() / (n - 1.0) / n).sqrt();
-        ((1e9 + f) / (1e9 + h) * integral, error)
-    });
-}
-
-#[test]
-fn f_split_at_every_index() {
-    ladder::split_everywhere(RatioOfMeans);
-    ladder::value_tier(RatioOfMeans);
-}
-
-#[test]
-fn g_hardly_numbers() {
-    ladder::hardly_numbers(RatioOfMeans);
-}
-
-#[test]
-fn h_near_zero_denominator() {
-    ladder::near_zero_denominator(RatioOfMeans);
 }

@@ -1,53 +1,17 @@
 use crate::ladder;
 use ratiocv_core::Tin;
 
-#[test]
-fn a_empty() {
-    ladder::empty(Tin);
+ladder::ladder! {
+    Tin,
+    one draw 7.5,
+    by hand {
+        // 3·[2 + (1/12 − 1/3)/4].
+        ladder::asymmetric(Tin, 5.8125, 1.870_829);
+    },
+    at 1e9 ladder::ratio_at_1e9
 }
 
 #[test]
-fn b_one_draw() {
-    ladder::one_draw(Tin, 7.5);
-}
-
-#[test]
-fn c_constant() {
-    ladder::constant(Tin);
+fn proportional() {
     ladder::proportional(Tin);
-}
-
-#[test]
-fn d_asymmetric_by_hand() {
-    // 3·[2 + (1/12 − 1/3)/4].
-    ladder::asymmetric(Tin, 5.8125, 1.870_829);
-}
-
-#[test]
-fn e_offset() {
-    ladder::offset(Tin, |draws, integral| {
-        let n = draws.len() as f64;
-        // Deviations from 1e9, exact.
-        let (f, h) = draws.iter().fold((0.0, 0.0), |(f, h), d| (f + (d.0 - 1e9) / n, h + (d.1 - 1e9) / n));
-        let c = (1e9 + f) / (1e9 + h);
-        let square = |d: &(f64, f64)| (d.0 - 1e9 - f - c * (d.1 - 1e9 - h)).powi(2);
-        let error = (draws.iter().map(square).sum::<f64>() / (n - 1.0) / n).sqrt();
-        ((1e9 + f) / (1e9 + h) * integral, error)
-    });
-}
-
-#[test]
-fn f_split_at_every_index() {
-    ladder::split_everywhere(Tin);
-    ladder::value_tier(Tin);
-}
-
-#[test]
-fn g_hardly_numbers() {
-    ladder::hardly_numbers(Tin);
-}
-
-#[test]
-fn h_near_zero_denominator() {
-    ladder::near_zero_denominator(Tin);
 }

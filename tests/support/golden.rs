@@ -11,7 +11,7 @@ pub struct Golden {
     pub distributions: Vec<Law>,
     /// Laws with h = 0 at a point.
     #[serde(default)]
-    pub singular: Vec<Singular>,
+    pub singular: Vec<Law>,
 }
 
 /// A discrete law of draws, and what each estimator makes of it.
@@ -118,23 +118,6 @@ pub struct Constants {
     pub first_order: BTreeMap<String, Number>,
     /// Coefficients of 1/N² of the bias.
     pub second_order_bias: BTreeMap<String, Number>,
-}
-
-/// A law with undefined samples.
-#[derive(Debug, Deserialize)]
-pub struct Singular {
-    /// Its name.
-    pub name: String,
-    /// Its points.
-    pub support: Vec<Point>,
-    /// F.
-    #[serde(rename = "F", deserialize_with = "number")]
-    pub f: f64,
-    /// H.
-    #[serde(rename = "H")]
-    pub h: OneOrMany,
-    /// Moments, or the probability that there are none.
-    pub results: Vec<Record>,
 }
 
 /// H of one auxiliary, or of all.
