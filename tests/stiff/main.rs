@@ -3,6 +3,7 @@
 //!
 //! The law over all of them: the other channels are bit-identical to a run without the bad one.
 
+mod advice;
 mod cancellation;
 mod cases;
 mod counts;
