@@ -37,9 +37,11 @@ where
 }
 
 /// Mickey, raw or defensive, with any number of groups that the golden values have.
-fn mickey<E: Copy + 'static>(estimator: E, groups: usize, h: f64) -> Option<Estimate>
+fn mickey<E>(estimator: E, groups: usize, h: f64) -> Option<Estimate>
 where
-    E: Estimator<<Groups<f64, 2> as Moments>::Channel>
+    E: Copy
+        + 'static
+        + Estimator<<Groups<f64, 2> as Moments>::Channel>
         + Estimator<<Groups<f64, 4> as Moments>::Channel>
         + Estimator<<Groups<f64, 8> as Moments>::Channel>,
 {

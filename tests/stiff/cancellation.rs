@@ -12,7 +12,7 @@ use ratiocv_tests::samples::Noise;
 fn num_acc(base: &str) -> Vec<f64> {
     let number = |tenth: &str| format!("{base}.{tenth}").parse::<f64>().expect("a number");
     let (first, low, high) = (number("2"), number("1"), number("3"));
-    std::iter::once(first).chain((0..1000).map(|i| if i % 2 == 0 { low } else { high })).collect()
+    core::iter::once(first).chain((0..1000).map(|i| if i % 2 == 0 { low } else { high })).collect()
 }
 
 /// Correct decimal digits.
@@ -68,7 +68,7 @@ fn c5_a_constant_is_exact_for_any_lanes_blocks_and_tree() {
         let tenth = V::Scalar::from_f64(0.1);
         let draw = Draw::new(V::splat(tenth), V::ONE);
         let mut whole = Variance::<V>::default();
-        whole.add_batch(&vec![draw; 100_000]);
+        whole.add_batch(&[draw; 100_000]);
         let mut tree: Vec<_> = (0..1000)
             .map(|i| {
                 let mut part = Variance::<V>::default();

@@ -109,7 +109,7 @@ fn a9_an_ill_conditioned_sum() {
 fn a10_sums_of_large_numbers_do_not_overflow() {
     assert_eq!(ratio32(&[(2.0, 1e38); 4], f64::from(1e38_f32)).value, 2.0);
     assert_eq!(ratio(&[(2.0, 1e308); 4], 1e308).value, 2.0);
-    assert_eq!(run(Mickey, &[(2.0_f32, 1e38_f32); 100], f64::from(1e38_f32)).flags.fell_back(), true);
+    assert!(run(Mickey, &[(2.0_f32, 1e38_f32); 100], f64::from(1e38_f32)).flags.fell_back());
     let batch = ratiocv_tests::samples::filled(Sums::<f32>::default(), [(2.0, 1e38); 200]);
     assert_eq!(RatioOfMeans.estimate(&batch, &Integrals::new([f64::from(1e38_f32)])).unwrap().value, 2.0);
 }

@@ -164,7 +164,7 @@ fn maybe_number<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64
     number(deserializer).map(Some)
 }
 
-fn parse_fraction(text: &str) -> Result<f64, std::num::ParseFloatError> {
+fn parse_fraction(text: &str) -> Result<f64, core::num::ParseFloatError> {
     match text.split_once('/') {
         None => text.parse(),
         Some((p, q)) => Ok(p.parse::<f64>()? / q.parse::<f64>()?),

@@ -17,7 +17,7 @@ use crate::lanes::Lanes;
 /// alone. These are the functions of `conformance`.
 ///
 /// # Implementing
-/// Implement [`Block`](crate::moments::Block) and use [`Blocked`](crate::moments::Blocked).
+/// Implement [`Takes`](crate::moments::Takes) and use [`Blocked`](crate::moments::Blocked).
 pub trait Accumulate<D> {
     /// Adds one draw.
     fn add(&mut self, draw: D);
