@@ -68,7 +68,7 @@ fn c5_a_constant_is_exact_for_any_lanes_blocks_and_tree() {
         let tenth = V::Scalar::from_f64(0.1);
         let draw = Draw::new(V::splat(tenth), V::ONE);
         let mut whole = Variance::<V>::default();
-        whole.add_batch(&[draw; 100_000]);
+        whole.add_batch(&core::iter::repeat_n(draw, 100_000).collect::<Vec<_>>());
         let mut tree: Vec<_> = (0..1000)
             .map(|i| {
                 let mut part = Variance::<V>::default();
