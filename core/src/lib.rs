@@ -60,13 +60,14 @@ mod planted;
 pub mod predict;
 mod problem;
 mod scaled;
+mod solve;
 mod spectrum;
 
 pub use draw::Draw;
 pub use error::Error;
 pub use estimate::{ChannelEstimate, Estimate};
 pub use estimator::{
-    Beale, Defensive, Estimator, FallBackWhenIll, HartleyRoss, MeanOfRatios, Mickey, Mixed, Plain, Quenouille,
+    Beale, Combined, Defensive, Estimator, FallBackWhenIll, HartleyRoss, MeanOfRatios, Mickey, Plain, Quenouille,
     RatioOfMeans, Reads, Sample, Tin,
 };
 pub use flags::Flags;

@@ -120,8 +120,8 @@ impl Population {
         Self {
             f,
             h: integral,
-            c20: spread.hh / divisor / h / h,
-            f_c11: spread.fh() / divisor / h,
+            c20: spread.hh[0][0] / divisor / h / h,
+            f_c11: spread.fh(0) / divisor / h,
             ff_c02: spread.ff() / divisor,
             c30: third.hhh / n / h / h / h,
             f_c21: third.hhf / n / h / h,

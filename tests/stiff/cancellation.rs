@@ -116,7 +116,7 @@ fn c7_residuals_at_the_level_of_rounding() {
         let right: f64 = draws.iter().map(|d| ((f64::from(d.0) - f) - f / h * (f64::from(d.1) - h)).powi(2)).sum();
         let moments = moments(draws);
         let spread = moments.channel(0).comoments();
-        let ours = spread.about(f / h);
+        let ours = spread.about(&[f / h]);
         // Never negative, and no more than 32 units of the last place of f32 of the spread of f.
         let floor = (32.0 * f64::from(f32::EPSILON)).powi(2) * spread.ff();
         assert!(ours >= 0.0 && ours <= floor, "{ours:e} for {right:e}");

@@ -29,7 +29,7 @@ impl<S: HasComoments> Estimator<S> for Beale {
         }
         let (means, spread, n) = (sample.moments.means(sample.count), sample.moments.comoments(), sample.count as f64);
         let divisor = planted!("beale_divisor": n - 1.0, n) * n;
-        let (s_xx, s_xy) = (planted!("beale_s_xx": spread.hh, spread.ff()) / divisor, spread.fh() / divisor);
+        let (s_xx, s_xy) = (planted!("beale_s_xx": spread.hh[0][0], spread.ff()) / divisor, spread.fh(0) / divisor);
         // In units of the larger of |x̄| and s_x/√N: squares of x itself would leave the exponent
         // range long before the estimate does, and x̄ may be 0.
         let unit = means.h[0].abs().max(libm::sqrt(s_xx));
@@ -38,6 +38,6 @@ impl<S: HasComoments> Estimator<S> for Beale {
         }
         let x = means.h[0] / unit;
         let ratio = (means.f * x + s_xy / unit) / (x * x + s_xx / unit / unit);
-        remarks.value(quotient_times(ratio, unit, integral), ratio / unit)
+        remarks.value(quotient_times(ratio, unit, integral), &[ratio / unit])
     }
 }

@@ -2,10 +2,10 @@
 
 use crate::error::Error;
 use crate::estimate::ChannelEstimate;
-use crate::estimator::{Estimator, Reads, Sample};
+use crate::estimator::combined::mixed_twice;
+use crate::estimator::{Combined, Estimator, Reads, Sample};
 use crate::integrals::Integrals;
 use crate::lanes::Lanes;
-use crate::moments::{Group, HasComoments, HasGroups, HasMeans, HasRatioMean, Means, RatioMoments, Spread, Tails};
 use crate::planted::planted;
 
 /// `E` on h′ = εH + (1−ε)h, which has the same integral H and keeps away from 0.
@@ -59,92 +59,25 @@ impl<E: Reads> Reads for Defensive<E> {
 
 impl<S, E> Estimator<S> for Defensive<E>
 where
-    E: for<'a> Estimator<Mixed<'a, S>>,
+    E: for<'a> Estimator<Combined<'a, S>>,
 {
     fn check(&self, sample: &Sample<'_, S>, integrals: &[f64; 1]) -> Result<(), Error> {
-        self.on_mixed(sample, integrals, |sample| self.estimator.check(sample, integrals))
+        self.on_defended(sample, integrals, |sample| self.estimator.check(sample, integrals))
     }
     fn estimate_channel(&self, sample: &Sample<'_, S>, integrals: &[f64; 1]) -> ChannelEstimate {
-        self.on_mixed(sample, integrals, |sample| self.estimator.estimate_channel(sample, integrals))
+        self.on_defended(sample, integrals, |sample| self.estimator.estimate_channel(sample, integrals))
     }
 }
 
 impl<E> Defensive<E> {
     #[inline]
-    fn on_mixed<S, T>(
+    fn on_defended<S, T>(
         &self,
         sample: &Sample<'_, S>,
         &[integral]: &[f64; 1],
-        read: impl FnOnce(&Sample<'_, Mixed<'_, S>>) -> T,
+        read: impl FnOnce(&Sample<'_, Combined<'_, S>>) -> T,
     ) -> T {
-        let moments = Mixed { moments: sample.moments, weight: self.weight, integral };
-        read(&Sample { count: sample.count, epsilon: sample.epsilon, moments: &moments })
-    }
-}
-
-/// The weight of H in an auxiliary that is mixed with it twice.
-fn mixed_twice(first: f64, second: f64) -> f64 {
-    first + second - first * second
-}
-
-/// The moments of (f, h′), seen through those of (f, h).
-#[derive(Clone, Copy, Debug)]
-pub struct Mixed<'a, S> {
-    moments: &'a S,
-    weight: f64,
-    integral: f64,
-}
-
-impl<S> Mixed<'_, S> {
-    /// A mean of h′.
-    fn mean(&self, h: f64) -> f64 {
-        planted!("defensive_integral": self.weight * self.integral, self.weight) + (1.0 - self.weight) * h
-    }
-
-    /// Spreads of h′: x′ moves (1−ε) times as far as x.
-    fn spread_of(&self, spread: Spread) -> Spread {
-        let scale = 1.0 - self.weight;
-        Spread { slope: spread.slope / scale, ee: spread.ee, eh: spread.eh * scale, hh: spread.hh * scale * scale }
-    }
-}
-
-impl<S: HasMeans> HasMeans for Mixed<'_, S> {
-    fn means(&self, count: u64) -> Means {
-        let Means { f, h: [h] } = self.moments.means(count);
-        Means { f, h: [self.mean(h)] }
-    }
-    fn spread(&self) -> Option<Spread> {
-        self.moments.spread().map(|spread| self.spread_of(spread))
-    }
-    /// As of h: the condition of the defended sum is no worse.
-    fn tails(&self) -> Option<Tails> {
-        self.moments.tails().map(|tails| Tails {
-            abs_h: (1.0 - self.weight) * tails.abs_h,
-            nothing: 0,
-            unbounded: 0,
-            ..tails
-        })
-    }
-}
-
-impl<S: HasComoments> HasComoments for Mixed<'_, S> {
-    fn comoments(&self) -> Spread {
-        self.spread_of(self.moments.comoments())
-    }
-}
-
-impl<S: HasRatioMean> HasRatioMean for Mixed<'_, S> {
-    fn ratio(&self, weight: f64, integral: f64) -> Option<RatioMoments> {
-        self.moments.ratio(mixed_twice(self.weight, weight), integral)
-    }
-}
-
-impl<S: HasGroups> HasGroups for Mixed<'_, S> {
-    fn groups(&self) -> usize {
-        self.moments.groups()
-    }
-    fn group(&self, count: u64, group: usize) -> Group {
-        let group = self.moments.group(count, group);
-        Group { h: self.mean(group.h), ..group }
+        let constant = planted!("defensive_integral": self.weight * integral, self.weight);
+        read(&sample.of(&Combined::defensive(sample.moments, self.weight, constant)))
     }
 }

@@ -54,7 +54,7 @@ impl<S: HasMeans + HasRatioMean> Estimator<S> for HartleyRoss {
             Some(ratio) => {
                 let r = planted!("hartley_ross_coefficient": ratio.mean, means.f / means.h[0]);
                 let factor = planted!("hartley_ross_factor": n / (n - 1.0), 1.0);
-                remarks.value(integral * r + factor * (means.f - r * means.h[0]), r)
+                remarks.value(integral * r + factor * (means.f - r * means.h[0]), &[r])
             }
         }
     }

@@ -42,14 +42,14 @@ impl<S: HasMeans + HasGroups> Estimator<S> for Mickey {
             // group holds nearly all of Σx, the difference would have no digits left.
             let (f, h) =
                 groups().enumerate().filter(|(other, _)| *other != g).fold((0.0, 0.0), |(f, h), (_, other)| {
-                    (f + other.count as f64 * other.f, h + other.count as f64 * other.h)
+                    (f + other.count as f64 * other.f, h + other.count as f64 * other.h[0])
                 });
             if h == 0.0 {
                 return remarks.plain(remarks.zero_denominator());
             }
             let ratio = planted!("mickey_own_group": f / h, means.f / means.h[0]);
-            value -= planted!("mickey_sign": 1.0, -1.0) * group.count as f64 / n * ratio * (group.h - integral);
+            value -= planted!("mickey_sign": 1.0, -1.0) * group.count as f64 / n * ratio * (group.h[0] - integral);
         }
-        remarks.value(value, means.f / means.h[0])
+        remarks.value(value, &[means.f / means.h[0]])
     }
 }

@@ -1,6 +1,7 @@
 //! Estimators: from moments and known integrals to an estimate. One file each.
 
 mod beale;
+mod combined;
 mod defensive;
 mod fall_back;
 mod hartley_ross;
@@ -13,7 +14,8 @@ mod remarks;
 mod tin;
 
 pub use beale::Beale;
-pub use defensive::{Defensive, Mixed};
+pub use combined::Combined;
+pub use defensive::Defensive;
 pub use fall_back::FallBackWhenIll;
 pub use hartley_ross::HartleyRoss;
 pub use mean_of_ratios::MeanOfRatios;
@@ -34,12 +36,21 @@ use num_traits::float::FloatCore;
 /// One channel's moments, as an estimator sees them.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample<'a, S> {
+    /// Which channel it is.
+    pub channel: usize,
     /// The number of draws.
     pub count: u64,
     /// The unit roundoff of the draws, ×2.
     pub epsilon: f64,
     /// The moments.
     pub moments: &'a S,
+}
+
+impl<S> Sample<'_, S> {
+    /// Other moments of the same draws.
+    pub(crate) fn of<'a, T>(&self, moments: &'a T) -> Sample<'a, T> {
+        Sample { channel: self.channel, count: self.count, epsilon: self.epsilon, moments }
+    }
 }
 
 /// Turns the moments `S` of one channel, and the known integrals of `K` auxiliaries, into an
@@ -108,7 +119,7 @@ pub trait Estimator<S, const K: usize = 1> {
 #[inline]
 fn of_channel<M: Moments, T>(closed: &M, channel: usize, read: impl FnOnce(&Sample<'_, M::Channel>) -> T) -> T {
     let epsilon = <<M::Lanes as Lanes>::Scalar as FloatCore>::epsilon().widen();
-    read(&Sample { count: closed.count(), epsilon, moments: &closed.channel(channel) })
+    read(&Sample { channel, count: closed.count(), epsilon, moments: &closed.channel(channel) })
 }
 
 /// Names the moments that an estimator reads, and makes accumulators of exactly these.

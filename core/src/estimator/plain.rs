@@ -34,6 +34,6 @@ impl<S: HasMeans<K>, const K: usize> Estimator<S, K> for Plain {
         enough_draws::<Self, K>(sample.count)
     }
     fn estimate_channel(&self, sample: &Sample<'_, S>, _: &[f64; K]) -> ChannelEstimate {
-        Remarks::without_auxiliary(sample).value(sample.moments.means(sample.count).f, 0.0)
+        Remarks::without_auxiliary(sample).value(sample.moments.means(sample.count).f, &[0.0; K])
     }
 }

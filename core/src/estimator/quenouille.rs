@@ -42,7 +42,7 @@ impl<S: HasMeans + HasGroups> Estimator<S> for Quenouille {
                 (0.0, 0.0, 0.0),
                 |(n, f, h), group| {
                     let count = group.count as f64;
-                    (n + count, f + count * group.f, h + count * group.h)
+                    (n + count, f + count * group.f, h + count * group.h[0])
                 },
             )
         };
@@ -55,6 +55,6 @@ impl<S: HasMeans + HasGroups> Estimator<S> for Quenouille {
             let share = planted!("quenouille_weights": count / n, 0.5);
             value -= planted!("quenouille_sign": 1.0, -1.0) * share * quotient_times(f, h, integral);
         }
-        remarks.value(value, means.f / means.h[0])
+        remarks.value(value, &[means.f / means.h[0]])
     }
 }

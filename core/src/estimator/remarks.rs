@@ -9,60 +9,57 @@ use crate::scaled::quotient_times;
 
 /// What there is to say about one channel before any formula is applied.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Remarks {
+pub(super) struct Remarks<const K: usize = 1> {
     count: u64,
     epsilon: f64,
     mean_f: f64,
-    mean_h: f64,
-    spread: Option<Spread>,
+    mean_h: [f64; K],
+    spread: Option<Spread<K>>,
     tails: Option<Tails>,
     flags: Flags,
 }
 
-impl Remarks {
+impl<const K: usize> Remarks<K> {
     /// Of an estimator that reads no auxiliary.
-    pub(super) fn without_auxiliary<S: HasMeans<K>, const K: usize>(sample: &Sample<'_, S>) -> Self {
+    pub(super) fn without_auxiliary<S: HasMeans<K>>(sample: &Sample<'_, S>) -> Self {
         // f/f: an auxiliary about which there is nothing to remark.
         let mean_f = sample.moments.means(sample.count).f;
-        let mut remarks = Self::new(sample, mean_f, if mean_f == 0.0 { 0.0 } else { 1.0 });
+        let mut remarks = Self::new(sample, mean_f, [if mean_f == 0.0 { 0.0 } else { 1.0 }; K]);
         // Nor is it f's concern if squares of an auxiliary left the range.
         if let Some(spread) = remarks.spread.as_mut().filter(|spread| spread.ff().is_finite()) {
-            *spread = Spread { slope: 0.0, ee: spread.ff(), eh: 0.0, hh: 0.0 };
+            *spread = Spread::of_integrand(spread.ff());
             remarks.flags = remarks.flags.without(Flags::OVERFLOW | Flags::UNDERFLOW);
         }
         remarks
     }
 
-    /// Of an estimator that reads ratios f/h alone, h with the integral `integral`.
-    pub(super) fn with_ratios<S: HasMeans>(sample: &Sample<'_, S>, integral: f64) -> Self {
-        let mut remarks = Self::without_auxiliary(sample);
-        remarks.flags |= bad(integral);
-        remarks
-    }
-
-    /// Of an estimator that reads the auxiliary whose integral is `integral`.
-    pub(super) fn with_auxiliary<S: HasMeans>(sample: &Sample<'_, S>, integral: f64) -> Self {
+    /// Of an estimator that reads the auxiliaries whose integrals are `integrals`.
+    pub(super) fn with_auxiliaries<S: HasMeans<K>>(sample: &Sample<'_, S>, integrals: &[f64; K]) -> Self {
         let means = sample.moments.means(sample.count);
-        let mut remarks = Self::new(sample, means.f, means.h[0]);
-        remarks.judge_auxiliary(integral);
+        let mut remarks = Self::new(sample, means.f, means.h);
+        for (k, integral) in integrals.iter().enumerate() {
+            remarks.judge_auxiliary(k, *integral);
+        }
         remarks
     }
 
-    fn new<S: HasMeans<K>, const K: usize>(sample: &Sample<'_, S>, mean_f: f64, mean_h: f64) -> Self {
+    fn new<S: HasMeans<K>>(sample: &Sample<'_, S>, mean_f: f64, mean_h: [f64; K]) -> Self {
         let (spread, tails) = (sample.moments.spread(), sample.moments.tails());
         let mut flags = Flags::when(sample.count == 0, Flags::EMPTY)
             | Flags::when(sample.count == 1, Flags::ONE_SAMPLE)
-            | Flags::when(!mean_f.is_finite() || mean_h.is_infinite(), Flags::NONFINITE);
+            | Flags::when(!mean_f.is_finite() || mean_h.iter().any(|h| h.is_infinite()), Flags::NONFINITE);
         if sample.count > 0 && mean_f == 0.0 {
-            // Zero draws, or draws that cancel? Only the spread can tell, or an auxiliary that is
-            // zero as well.
-            let unseen = spread.map_or(mean_h == 0.0, |spread| spread.ff() == 0.0);
+            // Zero draws, or draws that cancel? Only the spread can tell, or auxiliaries that are zero
+            // as well.
+            let unseen = spread.map_or(mean_h.iter().all(|h| *h == 0.0), |spread| spread.ff() == 0.0);
             flags |= Flags::when(unseen, Flags::NO_SUPPORT);
         }
-        if let Some(Spread { ee, eh, hh, .. }) = spread.filter(|_| mean_f.is_finite() && mean_h.is_finite()) {
-            let overflow = ee.is_infinite() || eh.is_infinite() || hh.is_infinite();
+        let finite = mean_f.is_finite() && mean_h.iter().all(|h| h.is_finite());
+        if let Some(Spread { ee, eh, hh, .. }) = spread.filter(|_| finite) {
+            let overflow = ee.is_infinite() || eh.iter().chain(hh.as_flattened()).any(|square| square.is_infinite());
             flags |= Flags::when(overflow, Flags::OVERFLOW);
-            flags |= Flags::when(!overflow && (ee.is_nan() || hh.is_nan()), Flags::UNDERFLOW);
+            let underflow = ee.is_nan() || (0..K).any(|k| hh[k][k].is_nan());
+            flags |= Flags::when(!overflow && underflow, Flags::UNDERFLOW);
         }
         if let (Some(tails), Some(spread)) = (tails, spread) {
             let squares = spread.ff() + sample.count as f64 * mean_f * mean_f;
@@ -72,15 +69,15 @@ impl Remarks {
         Self { count: sample.count, epsilon: sample.epsilon, mean_f, mean_h, spread, tails, flags }
     }
 
-    fn judge_auxiliary(&mut self, integral: f64) {
-        let (n, mean) = (self.count as f64, self.mean_h);
+    fn judge_auxiliary(&mut self, k: usize, integral: f64) {
+        let (n, mean) = (self.count as f64, self.mean_h[k]);
         self.flags |= bad(integral) | Flags::when(self.count > 0 && !mean.is_finite(), Flags::NONFINITE);
-        if let Some(tails) = self.tails {
+        if let Some(tails) = self.tails.filter(|_| K == 1) {
             // κ = Σ|h|/|Σh|: fewer than four digits left?
             let ill = self.epsilon * tails.abs_h > 1e-4 * (n * mean).abs();
             self.flags |= Flags::when(ill && tails.abs_h > 0.0, Flags::DENOM_ILL);
         }
-        let Some(Spread { hh, .. }) = self.spread else { return };
+        let Some(hh) = self.spread.map(|spread| spread.hh[k][k]) else { return };
         if self.count < 2 || mean == 0.0 || !hh.is_finite() {
             return;
         }
@@ -98,17 +95,15 @@ impl Remarks {
         self.flags
     }
 
-    /// The plain mean, with its own error bar: what an undefined result falls back to.
-    pub(super) fn plain(&self, why: Flags) -> ChannelEstimate {
-        self.finish(self.mean_f, 0.0, why)
+    /// These remarks without those in `others`.
+    pub(super) fn without(mut self, others: Flags) -> Self {
+        self.flags = self.flags.without(others);
+        self
     }
 
-    /// H·ȳ/x̄, or the plain mean where that is undefined.
-    pub(super) fn ratio_of_means(&self, integral: f64) -> ChannelEstimate {
-        if self.flags.fell_back() || self.mean_h == 0.0 {
-            return self.plain(self.zero_denominator());
-        }
-        self.value(quotient_times(self.mean_f, self.mean_h, integral), self.mean_f / self.mean_h)
+    /// The plain mean, with its own error bar: what an undefined result falls back to.
+    pub(super) fn plain(&self, why: Flags) -> ChannelEstimate {
+        self.finish(self.mean_f, &[0.0; K], 0.0, why)
     }
 
     /// DENOM_ZERO, unless the flags already say why there is no estimate.
@@ -116,16 +111,21 @@ impl Remarks {
         Flags::when(!self.flags.fell_back() && !self.flags.contains(Flags::NO_SUPPORT), Flags::DENOM_ZERO)
     }
 
-    /// `value`, whose error to first order is that of y − c·x.
-    pub(super) fn value(&self, value: f64, c: f64) -> ChannelEstimate {
+    /// `value`, whose error to first order is that of y − Σc_k·x_k.
+    pub(super) fn value(&self, value: f64, c: &[f64; K]) -> ChannelEstimate {
+        self.value_with_fit(value, c, 0.0)
+    }
+
+    /// The same for coefficients that were fitted to these very draws, of `parameters` degrees of freedom.
+    pub(super) fn value_with_fit(&self, value: f64, c: &[f64; K], parameters: f64) -> ChannelEstimate {
         let value = value + 0.0; // −0 becomes 0
         let negative = Flags::when(value < 0.0 && self.mean_f >= 0.0, Flags::NEGATIVE);
-        self.finish(value, c, negative)
+        self.finish(value, c, parameters, negative)
     }
 
     /// `value`, whose variance is `variance_of_mean`.
     pub(super) fn value_with_variance(&self, value: f64, variance_of_mean: f64) -> ChannelEstimate {
-        let estimate = self.value(value, 0.0);
+        let estimate = self.value(value, &[0.0; K]);
         let std_error = if self.known_error() { libm::sqrt(variance_of_mean) } else { f64::NAN };
         ChannelEstimate { std_error, ..estimate }
     }
@@ -134,34 +134,58 @@ impl Remarks {
         self.count >= 2 && !self.flags.contains(Flags::NO_SUPPORT)
     }
 
-    fn finish(&self, value: f64, c: f64, flags: Flags) -> ChannelEstimate {
+    fn finish(&self, value: f64, c: &[f64; K], parameters: f64, flags: Flags) -> ChannelEstimate {
         let mut flags = self.flags | flags;
         if self.count == 0 || !value.is_finite() {
             let value = if self.count == 0 { f64::NAN } else { value };
             // A finite mean that the formula drove out of range is undefined too.
             if self.count > 0 && self.mean_f.is_finite() && value != self.mean_f {
-                return self.finish(self.mean_f, 0.0, flags | Flags::NONFINITE);
+                return self.finish(self.mean_f, &[0.0; K], 0.0, flags | Flags::NONFINITE);
             }
             return ChannelEstimate { value: f64::NAN, std_error: f64::NAN, flags };
         }
-        let std_error = match self.spread.filter(|_| self.known_error()) {
+        let freedom = self.count as f64 - planted!("std_error_divisor": 1.0, 0.0) - parameters;
+        let std_error = match self.spread.filter(|_| self.known_error() && freedom > 0.0) {
             None => f64::NAN,
             Some(spread) => {
-                let n = self.count as f64;
                 let squares = spread.about(c);
                 // What the rounding of sums over a block may leave of draws that are proportional but
-                // for rounding: 31 unit roundoffs of the spread of f at worst in 10⁴ blocks of f32
-                // (tests/stiff, C7); twice that is allowed.
+                // for rounding: over the 10⁴ blocks of f32 of tests/stiff, C7, the median is 2 unit
+                // roundoffs of the spread of f, the worst 36; 64 are allowed.
                 let scale = 32.0 * self.epsilon;
-                let floor = scale * scale * (spread.ee + spread.slope * spread.slope * spread.hh);
+                let fitted: f64 = (0..K).map(|k| spread.slope[k] * spread.slope[k] * spread.hh[k][k]).sum();
+                let floor = scale * scale * (spread.ee + fitted);
                 let below = squares > 0.0 && squares < floor;
                 flags |= Flags::when(below, Flags::ROUNDING);
-                let variance = if below { floor } else { squares } / planted!("std_error_divisor": n - 1.0, n);
-                let error = libm::sqrt(variance / n);
+                let variance = if below { floor } else { squares } / freedom;
+                let error = libm::sqrt(variance / self.count as f64);
                 if error.is_finite() { error } else { f64::NAN }
             }
         };
         ChannelEstimate { value: value + 0.0, std_error, flags }
+    }
+}
+
+impl Remarks {
+    /// Of an estimator that reads the auxiliary whose integral is `integral`.
+    pub(super) fn with_auxiliary<S: HasMeans>(sample: &Sample<'_, S>, integral: f64) -> Self {
+        Self::with_auxiliaries(sample, &[integral])
+    }
+
+    /// Of an estimator that reads ratios f/h alone, h with the integral `integral`.
+    pub(super) fn with_ratios<S: HasMeans>(sample: &Sample<'_, S>, integral: f64) -> Self {
+        let mut remarks = Self::without_auxiliary(sample);
+        remarks.flags |= bad(integral);
+        remarks
+    }
+
+    /// H·ȳ/x̄, or the plain mean where that is undefined.
+    pub(super) fn ratio_of_means(&self, integral: f64) -> ChannelEstimate {
+        let [mean_h] = self.mean_h;
+        if self.flags.fell_back() || mean_h == 0.0 {
+            return self.plain(self.zero_denominator());
+        }
+        self.value(quotient_times(self.mean_f, mean_h, integral), &[self.mean_f / mean_h])
     }
 }
 

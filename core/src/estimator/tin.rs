@@ -30,9 +30,9 @@ impl<S: HasComoments> Estimator<S> for Tin {
         let (f, spread, n) = (sample.moments.means(sample.count).f, sample.moments.comoments(), sample.count as f64);
         let divisor = planted!("tin_divisor": n - 1.0, n) * n;
         // One x̄ at a time, so that no power of x̄ over- or underflows.
-        let first = spread.fh() / divisor / x;
-        let second = f * (planted!("tin_s_xx": spread.hh, spread.fh()) / divisor / x / x);
+        let first = spread.fh(0) / divisor / x;
+        let second = f * (planted!("tin_s_xx": spread.hh[0][0], spread.fh(0)) / divisor / x / x);
         let corrected = f + planted!("tin_sign": first - second, second - first);
-        remarks.value(quotient_times(corrected, x, integral), f / x)
+        remarks.value(quotient_times(corrected, x, integral), &[f / x])
     }
 }

@@ -1,7 +1,7 @@
-//! Second moments of (f, h), kept as the residuals of a running regression.
+//! Second moments of f and of `K` auxiliaries, kept as the residuals of a running regression.
 //!
-//! Every error bar is the variance of y − c·x for some c: 0 for plain, R̂ for the ratio of means, r̄
-//! for Hartley–Ross, β̂ for regression. Expanded, s_yy − 2c·s_xy + c²·s_xx cancels to noise (below
+//! Every error bar is the variance of y − Σ_k c_k·x_k for some c: 0 for plain, R̂ for the ratio of means,
+//! r̄ for Hartley–Ross, β̂ for regression. Expanded, s_yy − 2c·s_xy + c²·s_xx cancels to noise (below
 //! zero in 38 % of trials with f = fl(h/3) in `f32`). So we keep the residual e = y − c₀·x about the
 //! least-squares slope c₀ known so far, where s_ee, s_eh ≈ 0 and s_hh give, for *every* c,
 //!
@@ -9,7 +9,7 @@
 //! s(c) = s_ee + 2(c₀ − c)·s_eh + (c₀ − c)²·s_hh
 //! ```
 //!
-//! as a sum in which nothing cancels: no c can fall below the least-squares residual. (A residual
+//! (for one auxiliary) as a sum in which nothing cancels: no c can fall below the least-squares residual. (A residual
 //! about R̂ instead would serve the ratio but spoil plain's error bar where h is the noisier one.)
 //! A merge moves both parts to their joint slope, exactly; a block of draws is summed about the
 //! slope that the state knew when the block was opened.
@@ -20,9 +20,11 @@ use crate::moments::blocked::{Blocked, Kernel, State, Takes, larger_first, parti
 use crate::moments::range::{magnitude, smallest_square, unless_underflowed};
 use crate::moments::read::{HasComoments, HasMeans, Means, Spread};
 use crate::planted::planted;
+use crate::solve::solve;
+use core::array;
 
-/// Means and second co-moments of f and one auxiliary: the error-bar tier of every estimator that
-/// works on means.
+/// Means and second co-moments of f and `K` auxiliaries: the error-bar tier of every estimator that
+/// works on means, and what regressions read.
 ///
 /// After 1 draw the means are that draw, to the bit, and the second moments are 0 (no estimator
 /// makes an error bar of them). NaN or an infinity in a channel makes that channel's moments NaN.
@@ -39,181 +41,272 @@ use crate::planted::planted;
 /// println!("{} ± {} {}", tin.value, tin.std_error, tin.flags(0));
 /// # Ok::<(), ratiocv_core::Error>(())
 /// ```
-pub type Comoments<V> = Blocked<V, ComomentsBlock<V>>;
+pub type Comoments<V, const K: usize = 1> = Blocked<V, ComomentsBlock<V, K>>;
 
-/// The block kernel of [`Comoments`]: five sums about the block's first draw and the known slope.
+/// The block kernel of [`Comoments`]: sums about the block's first draw and the known slopes.
 #[derive(Clone, Copy, Debug)]
-pub struct ComomentsBlock<V> {
-    shift: Draw<V>,
-    slope: V,
+pub struct ComomentsBlock<V, const K: usize = 1> {
+    shift: Draw<V, K>,
+    slope: [V; K],
     f: V,
-    h: V,
-    ee: V,
-    eh: V,
-    hh: V,
+    h: [V; K],
+    squares: Squares<V, K>,
 }
 
-/// The state of [`Comoments`]: anchor, means relative to it, slope, and sums of squares about the
+/// Sums of products of the residual e and of each h.
+#[derive(Clone, Copy, Debug)]
+struct Squares<V, const K: usize> {
+    ee: V,
+    eh: [V; K],
+    /// The lower triangle, `hh[i][j]` with j ≤ i; the rest is 0.
+    hh: [[V; K]; K],
+}
+
+/// The state of [`Comoments`]: anchor, means relative to it, slopes, and sums of squares about the
 /// means.
 #[derive(Clone, Copy, Debug)]
-pub struct ComomentsState<W> {
-    anchor: Draw<W>,
+pub struct ComomentsState<W, const K: usize = 1> {
+    anchor: Draw<W, K>,
     f: W,
-    h: W,
-    slope: W,
-    ee: W,
-    eh: W,
-    hh: W,
+    h: [W; K],
+    slope: [W; K],
+    squares: Squares<W, K>,
 }
 
-impl<W: Lanes> Default for ComomentsState<W> {
-    fn default() -> Self {
-        Self { anchor: Draw::ZERO, slope: W::ZERO, f: W::ZERO, h: W::ZERO, ee: W::ZERO, eh: W::ZERO, hh: W::ZERO }
+impl<V: Lanes, const K: usize> Squares<V, K> {
+    const ZERO: Self = Self { ee: V::ZERO, eh: [V::ZERO; K], hh: [[V::ZERO; K]; K] };
+
+    #[inline(always)]
+    fn map<U: Lanes>(&self, change: impl Fn(V) -> U) -> Squares<U, K> {
+        let mut mapped = Squares { ee: change(self.ee), eh: self.eh.map(&change), hh: [[U::ZERO; K]; K] };
+        for i in 0..K {
+            for j in 0..=i {
+                mapped.hh[i][j] = change(self.hh[i][j]);
+            }
+        }
+        mapped
+    }
+
+    /// Adds the squares and products of `e` and `h`, each times `weight`.
+    #[inline(always)]
+    fn add(&mut self, e: V, h: &[V; K], weighted: impl Fn(V) -> V) {
+        self.ee = self.ee + weighted(e * e);
+        for i in 0..K {
+            self.eh[i] = self.eh[i] + weighted(e * h[i]);
+            for j in 0..=i {
+                self.hh[i][j] = self.hh[i][j] + weighted(h[i] * h[j]);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn add_all(&mut self, other: &Self) {
+        self.ee = self.ee + other.ee;
+        for i in 0..K {
+            self.eh[i] = self.eh[i] + other.eh[i];
+            for j in 0..=i {
+                self.hh[i][j] = self.hh[i][j] + other.hh[i][j];
+            }
+        }
+    }
+
+    /// Σh_i·h_j.
+    #[inline(always)]
+    fn hh(&self, i: usize, j: usize) -> V {
+        self.hh[i.max(j)][i.min(j)]
+    }
+
+    /// NaN where squares underflowed; `slope` is what e is about, `e` and `h` are any sums of them.
+    #[inline(always)]
+    fn unless_underflowed(mut self, slope: &[V; K], e: V, h: &[V; K], smallest: V) -> Self
+    where
+        V: Lanes<Scalar = f64>,
+    {
+        let f_scale = (0..K).fold(self.ee, |sum, k| sum + slope[k] * slope[k] * self.hh[k][k]);
+        self.ee = unless_underflowed(self.ee, f_scale, e, smallest);
+        for k in 0..K {
+            self.hh[k][k] = unless_underflowed(self.hh[k][k], self.hh[k][k], h[k], smallest);
+        }
+        self
     }
 }
 
-impl<V: Lanes> Kernel for ComomentsBlock<V> {
-    type State = ComomentsState<V::Wide>;
+impl<W: Lanes, const K: usize> Default for ComomentsState<W, K> {
+    fn default() -> Self {
+        Self { anchor: Draw::ZERO, slope: [W::ZERO; K], f: W::ZERO, h: [W::ZERO; K], squares: Squares::ZERO }
+    }
+}
+
+/// f − Σ_k slope_k·h_k.
+#[inline(always)]
+fn residual<V: Lanes, const K: usize>(f: V, slope: &[V; K], h: &[V; K]) -> V {
+    (0..K).fold(f, |e, k| e - slope[k] * h[k])
+}
+
+impl<V: Lanes, const K: usize> Kernel for ComomentsBlock<V, K> {
+    type State = ComomentsState<V::Wide, K>;
     const PARTIALS: usize = partials(V::LANES);
 
     #[inline(always)]
     fn empty(state: &Self::State) -> Self {
         Self {
             shift: Draw::ZERO,
-            slope: V::narrow(state.slope),
+            slope: state.slope.map(V::narrow),
             f: V::ZERO,
-            h: V::ZERO,
-            ee: V::ZERO,
-            eh: V::ZERO,
-            hh: V::ZERO,
+            h: [V::ZERO; K],
+            squares: Squares::ZERO,
         }
     }
     #[inline(always)]
     fn fold(&mut self, other: &Self) {
         self.f = self.f + other.f;
-        self.h = self.h + other.h;
-        self.ee = self.ee + other.ee;
-        self.eh = self.eh + other.eh;
-        self.hh = self.hh + other.hh;
+        for (h, other) in self.h.iter_mut().zip(other.h) {
+            *h = *h + other;
+        }
+        self.squares.add_all(&other.squares);
     }
     #[inline(always)]
     fn close(&self, _: &Self::State, count: u64) -> Self::State {
         let count = V::Wide::splat(count as f64);
-        let slope = self.slope.widen();
-        let (f, h) = (self.f.widen() / count, self.h.widen() / count);
-        let e = f - slope * h;
-        let ee = magnitude(self.ee.widen() - e * e * count);
-        let hh = magnitude(self.hh.widen() - h * h * count);
-        let smallest = smallest_square::<V>();
+        let slope = self.slope.map(V::widen);
+        let (f, h) = (self.f.widen() / count, self.h.map(|h| h.widen() / count));
+        let e = residual(f, &slope, &h);
+        let mut squares = self.squares.map(V::widen);
+        squares.add(e, &h, |product| -(product * count));
+        squares.ee = magnitude(squares.ee);
+        for k in 0..K {
+            squares.hh[k][k] = magnitude(squares.hh[k][k]);
+        }
         ComomentsState {
             anchor: self.shift.map(V::widen),
             f,
             h,
             slope,
-            ee: unless_underflowed(ee, ee + slope * slope * hh, e, smallest),
-            eh: self.eh.widen() - e * h * count,
-            hh: unless_underflowed(hh, hh, h, smallest),
+            squares: squares.unless_underflowed(&slope, e, &h, smallest_square::<V>()),
         }
     }
 }
 
-impl<V: Lanes> Takes<Draw<V>> for ComomentsBlock<V> {
+impl<V: Lanes, const K: usize> Takes<Draw<V, K>> for ComomentsBlock<V, K> {
     #[inline(always)]
-    fn open(state: &Self::State, first: &Draw<V>) -> Self {
+    fn open(state: &Self::State, first: &Draw<V, K>) -> Self {
         Self { shift: *first, ..Self::empty(state) }
     }
     #[inline(always)]
-    fn add(&mut self, _: usize, draw: &Draw<V>) {
-        let f = draw.f - self.shift.f;
-        let h = draw.h[0] - self.shift.h[0];
-        let e = f - self.slope * h;
+    fn add(&mut self, _: usize, draw: &Draw<V, K>) {
+        let Draw { f, h } = draw.zip(self.shift, V::sub);
+        let e = residual(f, &self.slope, &h);
         self.f = self.f + f;
-        self.h = self.h + h;
-        self.ee = self.ee + e * e;
-        self.eh = self.eh + e * h;
-        self.hh = self.hh + h * h;
+        for (sum, h) in self.h.iter_mut().zip(h) {
+            *sum = *sum + h;
+        }
+        self.squares.add(e, &h, |product| product);
     }
 }
 
-impl<W: Lanes<Scalar = f64, Wide = W>> ComomentsState<W> {
-    /// The least-squares slope of moments `fh`, `hh` of draws whose auxiliary has the mean `mean_h`,
-    /// or `known` where the spread of h is still too small against its mean to tell: a slope fitted
-    /// to noise would be huge, and bury the residuals of later draws under rounding.
+impl<W: Lanes<Scalar = f64, Wide = W>, const K: usize> ComomentsState<W, K> {
+    /// Σ(f − f̄)(h_k − h̄_k).
     #[inline(always)]
-    fn fitted_slope(fh: W, hh: W, mean_h: W, known: W) -> W {
-        let fitted = fh / hh;
-        let fitted = W::select(W::equal(fitted * W::ZERO, W::ZERO), fitted, known);
-        W::select((W::splat(1e-4) * mean_h * mean_h).lt(hh), fitted, known)
+    fn fh(&self, k: usize) -> W {
+        (0..K).fold(self.squares.eh[k], |sum, j| sum + self.slope[j] * self.squares.hh(k, j))
+    }
+
+    /// The least-squares slopes of moments `fh`, `hh` of draws whose auxiliaries have the means
+    /// `mean_h`; the `known` one of an auxiliary whose spread is still too small against its mean to
+    /// tell: a slope fitted to noise would be huge, and bury the residuals of later draws under rounding.
+    #[inline(always)]
+    fn fitted_slopes(fh: [W; K], hh: &Squares<W, K>, mean_h: [W; K], known: [W; K]) -> [W; K] {
+        let spreads: [W; K] = array::from_fn(|k| {
+            let enough = (W::splat(1e-4) * mean_h[k] * mean_h[k]).lt(hh.hh[k][k]);
+            W::select(enough, W::ONE, W::ZERO)
+        });
+        let kept: [W; K] = array::from_fn(|k| W::select(W::equal(spreads[k], W::ONE), W::ZERO, known[k]));
+        let right = array::from_fn(|k| (0..K).fold(fh[k], |sum, j| sum - kept[j] * hh.hh(k, j)));
+        let matrix = array::from_fn(|i| array::from_fn(|j| hh.hh(i, j)));
+        // Any slopes will do; those of nearly dependent auxiliaries would only be large.
+        let fit = solve(&matrix, &right, &spreads, 1e-9);
+        // One slope that is not a number would spoil the residuals of all.
+        let finite = (0..K).fold(W::ZERO, |sum, k| sum + fit.x[k] * W::ZERO);
+        array::from_fn(|k| {
+            let fitted = W::select(W::equal(spreads[k], W::ONE), fit.x[k], known[k]);
+            W::select(W::equal(finite, W::ZERO), fitted, known[k])
+        })
     }
 
     /// The same moments with residuals about `slope`.
     #[inline(always)]
-    fn with_slope(self, slope: W) -> Self {
-        let turn = planted!("comoments_turn": slope - self.slope, self.slope - slope);
-        Self {
-            slope,
-            ee: magnitude(self.ee - turn * (self.eh + self.eh - turn * self.hh)),
-            eh: self.eh - turn * self.hh,
-            ..self
+    fn with_slopes(mut self, slope: &[W; K]) -> Self {
+        let turn: [W; K] =
+            array::from_fn(|k| planted!("comoments_turn": slope[k] - self.slope[k], self.slope[k] - slope[k]));
+        let before = self.squares.eh;
+        for k in 0..K {
+            let along = (0..K).fold(W::ZERO, |sum, j| sum + turn[j] * self.squares.hh(k, j));
+            self.squares.eh[k] = before[k] - along;
+            self.squares.ee = self.squares.ee - turn[k] * (before[k] + self.squares.eh[k]);
         }
+        self.squares.ee = magnitude(self.squares.ee);
+        self.slope = *slope;
+        self
     }
 }
 
-impl<W: Lanes<Scalar = f64, Wide = W>> State for ComomentsState<W> {
-    type Channel = ComomentsState<f64>;
+impl<W: Lanes<Scalar = f64, Wide = W>, const K: usize> State for ComomentsState<W, K> {
+    type Channel = ComomentsState<f64, K>;
 
-    /// Pairwise update of Chan, Golub and LeVeque (1983), on residuals about the joint slope.
+    /// Pairwise update of Chan, Golub and LeVeque (1983), on residuals about the joint slopes.
     #[inline(always)]
     fn merge(&mut self, count: u64, later: &Self, later_count: u64) {
         let (large, small, fraction) = larger_first(*self, count, *later, later_count);
         // n_a·(n_b/n), not n_a·n_b/n: the product of two counts overflows u64 from 2^32 on.
         let weight = planted!("comoments_weight": count.max(later_count) as f64, later_count as f64) * fraction;
         let (fraction, weight) = (W::splat(fraction), W::splat(weight));
-        let f = (small.anchor.f - large.anchor.f) + (small.f - large.f);
-        let h = (small.anchor.h[0] - large.anchor.h[0]) + (small.h - large.h);
-        let mean_h = large.h + h * fraction;
-        let hh = large.hh + small.hh + h * h * weight;
-        let fh = (large.eh + large.slope * large.hh) + (small.eh + small.slope * small.hh) + f * h * weight;
-        let slope = Self::fitted_slope(fh, hh, large.anchor.h[0] + mean_h, large.slope);
-        let (a, b) = (large.with_slope(slope), small.with_slope(slope));
-        let e = f - slope * h;
-        let ee = a.ee + b.ee + e * e * weight;
-        let smallest = smallest_square::<W>();
+        let anchors = small.anchor.zip(large.anchor, W::sub);
+        let f = anchors.f + (small.f - large.f);
+        let h = array::from_fn(|k| anchors.h[k] + (small.h[k] - large.h[k]));
+        let mean_h = array::from_fn(|k| large.h[k] + h[k] * fraction);
+        let mut joint = Squares::ZERO;
+        joint.add_all(&large.squares);
+        joint.add_all(&small.squares);
+        joint.add(W::ZERO, &h, |product| product * weight);
+        let fh = array::from_fn(|k| large.fh(k) + small.fh(k) + f * h[k] * weight);
+        let absolute = array::from_fn(|k| large.anchor.h[k] + mean_h[k]);
+        let slope = Self::fitted_slopes(fh, &joint, absolute, large.slope);
+        let (a, b) = (large.with_slopes(&slope), small.with_slopes(&slope));
+        let e = residual(f, &slope, &h);
+        joint.ee = a.squares.ee + b.squares.ee + e * e * weight;
+        joint.eh = array::from_fn(|k| a.squares.eh[k] + b.squares.eh[k] + e * h[k] * weight);
         *self = Self {
             anchor: large.anchor,
             f: large.f + f * fraction,
             h: mean_h,
             slope,
-            ee: unless_underflowed(ee, ee + slope * slope * hh, e, smallest),
-            eh: a.eh + b.eh + e * h * weight,
-            hh: unless_underflowed(hh, hh, h, smallest),
+            squares: joint.unless_underflowed(&slope, e, &h, smallest_square::<W>()),
         };
     }
 
-    fn channel(&self, channel: usize) -> ComomentsState<f64> {
+    fn channel(&self, channel: usize) -> ComomentsState<f64, K> {
         ComomentsState {
             anchor: self.anchor.map(|lanes| lanes.get(channel)),
             f: self.f.get(channel),
-            h: self.h.get(channel),
-            slope: self.slope.get(channel),
-            ee: self.ee.get(channel),
-            eh: self.eh.get(channel),
-            hh: self.hh.get(channel),
+            h: self.h.map(|lanes| lanes.get(channel)),
+            slope: self.slope.map(|lanes| lanes.get(channel)),
+            squares: self.squares.map(|lanes| lanes.get(channel)),
         }
     }
 }
 
-impl HasMeans<1> for ComomentsState<f64> {
-    fn means(&self, _: u64) -> Means {
-        Means { f: self.anchor.f + self.f, h: [self.anchor.h[0] + self.h] }
+impl<const K: usize> HasMeans<K> for ComomentsState<f64, K> {
+    fn means(&self, _: u64) -> Means<K> {
+        Means { f: self.anchor.f + self.f, h: array::from_fn(|k| self.anchor.h[k] + self.h[k]) }
     }
-    fn spread(&self) -> Option<Spread> {
+    fn spread(&self) -> Option<Spread<K>> {
         Some(self.comoments())
     }
 }
 
-impl HasComoments for ComomentsState<f64> {
-    fn comoments(&self) -> Spread {
-        Spread { slope: self.slope, ee: self.ee, eh: self.eh, hh: self.hh }
+impl<const K: usize> HasComoments<K> for ComomentsState<f64, K> {
+    fn comoments(&self) -> Spread<K> {
+        let Squares { ee, eh, .. } = self.squares;
+        Spread { slope: self.slope, ee, eh, hh: array::from_fn(|i| array::from_fn(|j| self.squares.hh(i, j))) }
     }
 }

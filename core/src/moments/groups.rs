@@ -1,4 +1,4 @@
-//! Means of f and h in each of `G` groups of draws, dealt round robin.
+//! Means of f and of each h in each of `G` groups of draws, dealt round robin.
 
 use crate::draw::Draw;
 use crate::lanes::Lanes;
@@ -6,7 +6,7 @@ use crate::moments::blocked::{Blocked, Kernel, State, Takes};
 use crate::moments::read::{Group, HasGroups, HasMeans, Means};
 use crate::planted::planted;
 
-/// Group means of f and one auxiliary: draw `i` of the stream belongs to group `i % G`.
+/// Group means of f and `K` auxiliaries: draw `i` of the stream belongs to group `i % G`.
 ///
 /// Grouped Mickey reads all `G`; Quenouille's halves are the even- and odd-numbered groups. A merge
 /// deals the later part's groups on from where the earlier part stopped, so that whole and parts
@@ -24,19 +24,19 @@ use crate::planted::planted;
 /// assert!(mickey.std_error.is_nan()); // group means alone: the value tier
 /// # Ok::<(), ratiocv_core::Error>(())
 /// ```
-pub type Groups<V, const G: usize> = Blocked<V, GroupsBlock<V, G>>;
+pub type Groups<V, const G: usize, const K: usize = 1> = Blocked<V, GroupsBlock<V, G, K>>;
 
 /// The block kernel of [`Groups`]: plain sums, no shift. A group may hold small numbers alone, and
 /// its mean is divided by; about a shift it would lose its relative precision.
 #[derive(Clone, Copy, Debug)]
-pub struct GroupsBlock<V, const G: usize> {
-    sums: [Draw<V>; G],
+pub struct GroupsBlock<V, const G: usize, const K: usize = 1> {
+    sums: [Draw<V, K>; G],
 }
 
 /// The state of [`Groups`]: the mean of each group, dealt from the stream's first draw.
 #[derive(Clone, Copy, Debug)]
-pub struct GroupsState<W, const G: usize> {
-    means: [Draw<W>; G],
+pub struct GroupsState<W, const G: usize, const K: usize = 1> {
+    means: [Draw<W, K>; G],
 }
 
 /// The number of draws in group `group` of `groups`, of a stream of `count`.
@@ -45,14 +45,14 @@ pub(crate) const fn size(count: u64, group: usize, groups: usize) -> u64 {
     (count + (groups - 1 - group) as u64) / groups as u64
 }
 
-impl<W: Lanes, const G: usize> Default for GroupsState<W, G> {
+impl<W: Lanes, const G: usize, const K: usize> Default for GroupsState<W, G, K> {
     fn default() -> Self {
         Self { means: [Draw::ZERO; G] }
     }
 }
 
-impl<V: Lanes, const G: usize> Kernel for GroupsBlock<V, G> {
-    type State = GroupsState<V::Wide, G>;
+impl<V: Lanes, const G: usize, const K: usize> Kernel for GroupsBlock<V, G, K> {
+    type State = GroupsState<V::Wide, G, K>;
     // The groups are partial sums already.
     const PARTIALS: usize = 1;
 
@@ -79,20 +79,20 @@ impl<V: Lanes, const G: usize> Kernel for GroupsBlock<V, G> {
     }
 }
 
-impl<V: Lanes, const G: usize> Takes<Draw<V>> for GroupsBlock<V, G> {
+impl<V: Lanes, const G: usize, const K: usize> Takes<Draw<V, K>> for GroupsBlock<V, G, K> {
     #[inline(always)]
-    fn open(state: &Self::State, _: &Draw<V>) -> Self {
+    fn open(state: &Self::State, _: &Draw<V, K>) -> Self {
         Self::empty(state)
     }
     #[inline(always)]
-    fn add(&mut self, index: usize, draw: &Draw<V>) {
+    fn add(&mut self, index: usize, draw: &Draw<V, K>) {
         let sum = &mut self.sums[index % G];
         *sum = sum.zip(*draw, V::add);
     }
 }
 
-impl<W: Lanes<Scalar = f64>, const G: usize> State for GroupsState<W, G> {
-    type Channel = GroupsState<f64, G>;
+impl<W: Lanes<Scalar = f64>, const G: usize, const K: usize> State for GroupsState<W, G, K> {
+    type Channel = GroupsState<f64, G, K>;
 
     #[inline(always)]
     fn merge(&mut self, count: u64, later: &Self, later_count: u64) {
@@ -107,25 +107,25 @@ impl<W: Lanes<Scalar = f64>, const G: usize> State for GroupsState<W, G> {
             }
         }
     }
-    fn channel(&self, channel: usize) -> GroupsState<f64, G> {
+    fn channel(&self, channel: usize) -> GroupsState<f64, G, K> {
         GroupsState { means: self.means.map(|mean| mean.map(|lanes| lanes.get(channel))) }
     }
 }
 
-impl<const G: usize> HasMeans for GroupsState<f64, G> {
-    fn means(&self, count: u64) -> Means {
+impl<const G: usize, const K: usize> HasMeans<K> for GroupsState<f64, G, K> {
+    fn means(&self, count: u64) -> Means<K> {
         let share = |g: usize| size(count, g, G) as f64 / count as f64;
-        let mean = |entry: fn(&Draw<f64>) -> f64| (0..G).map(|g| share(g) * entry(&self.means[g])).sum();
-        Means { f: mean(|draw| draw.f), h: [mean(|draw| draw.h[0])] }
+        let mean = |entry: &dyn Fn(&Draw<f64, K>) -> f64| (0..G).map(|g| share(g) * entry(&self.means[g])).sum();
+        Means { f: mean(&|draw| draw.f), h: core::array::from_fn(|k| mean(&|draw| draw.h[k])) }
     }
 }
 
-impl<const G: usize> HasGroups for GroupsState<f64, G> {
+impl<const G: usize, const K: usize> HasGroups<K> for GroupsState<f64, G, K> {
     fn groups(&self) -> usize {
         G
     }
-    fn group(&self, count: u64, group: usize) -> Group {
-        Group { count: size(count, group, G), f: self.means[group].f, h: self.means[group].h[0] }
+    fn group(&self, count: u64, group: usize) -> Group<K> {
+        Group { count: size(count, group, G), f: self.means[group].f, h: self.means[group].h }
     }
 }
 

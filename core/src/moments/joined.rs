@@ -217,7 +217,7 @@ impl<B: HasMeans<K>, R, G, E: MayHaveTails, T, const K: usize> HasMeans<K> for J
     fn means(&self, count: u64) -> Means<K> {
         self.base.means(count)
     }
-    fn spread(&self) -> Option<Spread> {
+    fn spread(&self) -> Option<Spread<K>> {
         self.base.spread()
     }
     fn tails(&self) -> Option<Tails> {
@@ -225,8 +225,8 @@ impl<B: HasMeans<K>, R, G, E: MayHaveTails, T, const K: usize> HasMeans<K> for J
     }
 }
 
-impl<B: HasComoments, R, G, E: MayHaveTails, T> HasComoments for Joined<B, R, G, E, T> {
-    fn comoments(&self) -> Spread {
+impl<B: HasComoments<K>, R, G, E: MayHaveTails, T, const K: usize> HasComoments<K> for Joined<B, R, G, E, T> {
+    fn comoments(&self) -> Spread<K> {
         self.base.comoments()
     }
 }
@@ -244,11 +244,11 @@ impl<R: HasRatioMean, const L: usize> HasRatioMean for [R; L] {
     }
 }
 
-impl<B, R, G: HasGroups, E, T> HasGroups for Joined<B, R, G, E, T> {
+impl<B, R, G: HasGroups<K>, E, T, const K: usize> HasGroups<K> for Joined<B, R, G, E, T> {
     fn groups(&self) -> usize {
         self.groups.groups()
     }
-    fn group(&self, count: u64, group: usize) -> Group {
+    fn group(&self, count: u64, group: usize) -> Group<K> {
         self.groups.group(count, group)
     }
 }

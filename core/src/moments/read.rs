@@ -1,6 +1,8 @@
 //! What an estimator may ask of one channel's moments: one small trait per capability, so that one
 //! richer accumulator serves several estimators in one pass.
 
+use core::array;
+
 /// Means of f and of `K` auxiliaries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Means<const K: usize = 1> {
@@ -10,37 +12,47 @@ pub struct Means<const K: usize = 1> {
     pub h: [f64; K],
 }
 
-/// Sums of products about the means, of f's residual e = f − slope·h and of h.
+/// Sums of products about the means, of f's residual e = f − Σ_k slope_k·h_k and of each h.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spread {
-    /// The slope that the residuals are about.
-    pub slope: f64,
+pub struct Spread<const K: usize = 1> {
+    /// The slopes that the residuals are about.
+    pub slope: [f64; K],
     /// Σ(e − ē)². NaN where it underflowed, infinite where it overflowed.
     pub ee: f64,
-    /// Σ(e − ē)(h − h̄).
-    pub eh: f64,
-    /// Σ(h − h̄)². NaN where it underflowed, infinite where it overflowed.
-    pub hh: f64,
+    /// Σ(e − ē)(h_k − h̄_k).
+    pub eh: [f64; K],
+    /// Σ(h_i − h̄_i)(h_k − h̄_k), symmetric. Diagonal: NaN where it underflowed, infinite where it
+    /// overflowed.
+    pub hh: [[f64; K]; K],
 }
 
-impl Spread {
-    /// Σ((f − f̄) − c(h − h̄))²: never negative, and without cancellation near the least-squares c.
-    pub fn about(&self, c: f64) -> f64 {
-        let turn = self.slope - c;
-        // With turn = 0 an overflowed hh does not matter.
-        let rest = if turn == 0.0 { 0.0 } else { turn * (2.0 * self.eh + turn * self.hh) };
-        let sum = self.ee + rest;
+impl<const K: usize> Spread<K> {
+    /// Of f alone, Σ(f − f̄)² being `ff`; nothing is known of h.
+    pub(crate) const fn of_integrand(ff: f64) -> Self {
+        Self { slope: [0.0; K], ee: ff, eh: [0.0; K], hh: [[0.0; K]; K] }
+    }
+
+    /// Σ((f − f̄) − Σ_k c_k(h_k − h̄_k))²: never negative, and without cancellation near the
+    /// least-squares c.
+    pub fn about(&self, c: &[f64; K]) -> f64 {
+        let turn: [f64; K] = array::from_fn(|k| self.slope[k] - c[k]);
+        let mut sum = self.ee;
+        // With a turn of 0 an overflowed square of that h does not matter.
+        for k in (0..K).filter(|k| turn[*k] != 0.0) {
+            let along: f64 = (0..K).filter(|j| turn[*j] != 0.0).map(|j| turn[j] * self.hh[k][j]).sum();
+            sum += turn[k] * (2.0 * self.eh[k] + along);
+        }
         if sum < 0.0 { 0.0 } else { sum }
     }
 
     /// Σ(f − f̄)².
     pub fn ff(&self) -> f64 {
-        self.about(0.0)
+        self.about(&[0.0; K])
     }
 
-    /// Σ(f − f̄)(h − h̄).
-    pub fn fh(&self) -> f64 {
-        self.eh + self.slope * self.hh
+    /// Σ(f − f̄)(h_k − h̄_k); panics if there is no auxiliary `k`.
+    pub fn fh(&self, k: usize) -> f64 {
+        self.eh[k] + (0..K).map(|j| self.slope[j] * self.hh[k][j]).sum::<f64>()
     }
 }
 
@@ -64,7 +76,7 @@ pub trait HasMeans<const K: usize = 1> {
     /// The means of `count` draws.
     fn means(&self, count: u64) -> Means<K>;
     /// The spread, if these moments keep it.
-    fn spread(&self) -> Option<Spread> {
+    fn spread(&self) -> Option<Spread<K>> {
         None
     }
     /// The tails, if these moments keep them.
@@ -73,10 +85,10 @@ pub trait HasMeans<const K: usize = 1> {
     }
 }
 
-/// Second co-moments of f and one auxiliary.
-pub trait HasComoments: HasMeans<1> {
+/// Second co-moments of f and `K` auxiliaries.
+pub trait HasComoments<const K: usize = 1>: HasMeans<K> {
     /// The spread.
-    fn comoments(&self) -> Spread;
+    fn comoments(&self) -> Spread<K>;
 }
 
 /// Moments of r = f/h.
@@ -97,21 +109,21 @@ pub trait HasRatioMean {
 
 /// One group's draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Group {
+pub struct Group<const K: usize = 1> {
     /// How many.
     pub count: u64,
     /// The mean of f.
     pub f: f64,
-    /// The mean of the auxiliary.
-    pub h: f64,
+    /// The mean of each auxiliary.
+    pub h: [f64; K],
 }
 
 /// Means of groups of draws, dealt round robin.
-pub trait HasGroups {
+pub trait HasGroups<const K: usize = 1> {
     /// The number of groups.
     fn groups(&self) -> usize;
     /// Group `group` of a stream of `count` draws; panics if there is no such group.
-    fn group(&self, count: u64, group: usize) -> Group;
+    fn group(&self, count: u64, group: usize) -> Group<K>;
 }
 
 /// Third central moments, as sums, of f and h about their means.

@@ -224,8 +224,8 @@ impl<const S: usize, const K: usize> HasMeans<K> for UnivariateState<IntegrandOf
     fn means(&self, _: u64) -> Means<K> {
         Means { f: self.anchor + self.relative, h: [f64::NAN; K] }
     }
-    fn spread(&self) -> Option<Spread> {
-        self.squares.first().map(|ee| Spread { slope: 0.0, ee: *ee, eh: 0.0, hh: 0.0 })
+    fn spread(&self) -> Option<Spread<K>> {
+        self.squares.first().map(|ff| Spread::of_integrand(*ff))
     }
 }
 
