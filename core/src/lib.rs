@@ -67,8 +67,10 @@ pub use draw::Draw;
 pub use error::Error;
 pub use estimate::{ChannelEstimate, Estimate};
 pub use estimator::{
-    Beale, Combined, Defensive, Estimator, FallBackWhenIll, HartleyRoss, MeanOfRatios, Mickey, Plain, Quenouille,
-    RatioOfMeans, Reads, Sample, Tin,
+    Beale, Choice, Choose, Coefficients, Combined, CrossFitted, Defensive, Dependent, DeterministicMixture, Difference,
+    EstimatedIntegrals, Estimator, FallBackWhenIll, Fit, Fixed, HartleyRoss, Jackknife, MeanOfRatios, Mickey,
+    OptimalDefensive, Plain, Quenouille, RandomMixture, RatioOfIntegrals, RatioOfMeans, Reads, Regression,
+    RegressionRatio, Sample, Tin, Uncertain, WithCoefficients,
 };
 pub use flags::Flags;
 pub use integrals::Integrals;

@@ -1,5 +1,9 @@
 //! A linear combination of auxiliaries is an auxiliary: its moments, formed when the estimate is made.
 
+use crate::estimate::ChannelEstimate;
+use crate::estimator::remarks::Remarks;
+use crate::estimator::{Coefficients, Estimator, Sample};
+use crate::flags::Flags;
 use crate::moments::{Group, HasComoments, HasGroups, HasMeans, HasRatioMean, Means, RatioMoments, Spread, Tails};
 
 /// The moments of (f, h′), h′ = constant + Σ_k coefficient_k·h_k, seen through those of (f, h).
@@ -22,10 +26,35 @@ impl<'a, S> Combined<'a, S> {
     }
 }
 
-impl<'a, S, const K: usize> Combined<'a, S, K> {
-    /// h′ = constant + Σ_k coefficient_k·h_k, no ratios f/h′ having been accumulated.
-    pub(super) fn of(moments: &'a S, constant: f64, coefficients: [f64; K]) -> Self {
-        Self { moments, constant, coefficients, weight: f64::NAN }
+impl<S, const K: usize> Combined<'_, S, K> {
+    /// The estimate of `estimator` on h′ = a_0 + Σ_k a_k·h_k/H_k, of integral Σa, a_0 being `of_proposal`.
+    pub(super) fn estimate<E>(
+        estimator: &E,
+        sample: &Sample<'_, S>,
+        integrals: &[f64; K],
+        of_proposal: f64,
+        weights: &Coefficients<K>,
+    ) -> ChannelEstimate
+    where
+        S: HasMeans<K>,
+        E: for<'b> Estimator<Combined<'b, S, K>>,
+    {
+        let remarks = Remarks::with_auxiliaries(sample, integrals);
+        if remarks.flags().fell_back() {
+            return remarks.plain(Flags::NONE);
+        }
+        let integral = of_proposal + weights.values.iter().sum::<f64>();
+        if integral == 0.0 {
+            return remarks.plain(remarks.zero_denominator());
+        }
+        let over_integral =
+            core::array::from_fn(|k| if weights.values[k] == 0.0 { 0.0 } else { weights.values[k] / integrals[k] });
+        let combined =
+            Combined { moments: sample.moments, constant: of_proposal, coefficients: over_integral, weight: f64::NAN };
+        let ChannelEstimate { value, std_error, flags } =
+            estimator.estimate_channel(&sample.of(&combined), &[integral]);
+        let wider = remarks.wider(weights.parameters);
+        ChannelEstimate { value, std_error: std_error * wider, flags: flags | weights.flags }
     }
 
     /// A mean of h′ from those of each h.

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::estimate::ChannelEstimate;
+use crate::estimator::jackknife::others;
 use crate::estimator::remarks::Remarks;
 use crate::estimator::{Estimator, Sample, enough_draws, reads};
 use crate::moments::{Blocked, ComomentsBlock, Groups, GroupsBlock, HasGroups, HasMeans, Joined};
@@ -38,12 +39,7 @@ impl<S: HasMeans + HasGroups> Estimator<S> for Mickey {
         let groups = || (0..sample.moments.groups()).map(|g| sample.moments.group(sample.count, g));
         let mut value = means.f;
         for (g, group) in groups().enumerate().filter(|(_, group)| group.count > 0) {
-            // The others' sums are added up, not taken as the difference to the whole: where this
-            // group holds nearly all of Σx, the difference would have no digits left.
-            let (f, h) =
-                groups().enumerate().filter(|(other, _)| *other != g).fold((0.0, 0.0), |(f, h), (_, other)| {
-                    (f + other.count as f64 * other.f, h + other.count as f64 * other.h[0])
-                });
+            let (f, h) = others(sample.moments.groups(), g, |g| sample.moments.group(sample.count, g));
             if h == 0.0 {
                 return remarks.plain(remarks.zero_denominator());
             }

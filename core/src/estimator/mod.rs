@@ -1,28 +1,52 @@
 //! Estimators: from moments and known integrals to an estimate. One file each.
 
 mod beale;
+mod choose;
 mod combined;
+mod cross_fitted;
 mod defensive;
+mod deterministic_mixture;
+mod difference;
+mod estimated_integrals;
 mod fall_back;
+mod fixed;
 mod hartley_ross;
+mod jackknife;
 mod mean_of_ratios;
 mod mickey;
+mod optimal_defensive;
 mod plain;
 mod quenouille;
+mod random_mixture;
+mod ratio_of_integrals;
 mod ratio_of_means;
+mod regression;
+mod regression_ratio;
 mod remarks;
 mod tin;
 
 pub use beale::Beale;
+pub use choose::{Choice, Choose};
 pub use combined::Combined;
+pub use cross_fitted::CrossFitted;
 pub use defensive::Defensive;
+pub use deterministic_mixture::DeterministicMixture;
+pub use difference::Difference;
+pub use estimated_integrals::{EstimatedIntegrals, Uncertain};
 pub use fall_back::FallBackWhenIll;
+pub use fixed::{Fit, Fixed, WithCoefficients};
 pub use hartley_ross::HartleyRoss;
+pub use jackknife::Jackknife;
 pub use mean_of_ratios::MeanOfRatios;
 pub use mickey::Mickey;
+pub use optimal_defensive::OptimalDefensive;
 pub use plain::Plain;
 pub use quenouille::Quenouille;
+pub use random_mixture::RandomMixture;
+pub use ratio_of_integrals::RatioOfIntegrals;
 pub use ratio_of_means::RatioOfMeans;
+pub use regression::{Coefficients, Dependent, Regression};
+pub use regression_ratio::RegressionRatio;
 pub use tin::Tin;
 
 use crate::draw::Draw;
@@ -192,4 +216,9 @@ pub(crate) fn enough_draws<E: Reads<K>, const K: usize>(count: u64) -> Result<()
     } else {
         Err(Error::TooFewDraws { estimator: E::ID, needed: E::MIN_DRAWS, got: count })
     }
+}
+
+/// The index of the most negative weight, if any is negative.
+fn most_negative<const K: usize>(weights: &[f64; K]) -> Option<usize> {
+    (0..K).filter(|k| weights[*k] < 0.0).min_by(|i, j| weights[*i].total_cmp(&weights[*j]))
 }

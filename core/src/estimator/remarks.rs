@@ -2,6 +2,7 @@
 
 use crate::estimate::ChannelEstimate;
 use crate::estimator::Sample;
+use crate::estimator::regression::leverage;
 use crate::flags::Flags;
 use crate::moments::{HasMeans, Spread, Tails};
 use crate::planted::planted;
@@ -14,6 +15,8 @@ pub(super) struct Remarks<const K: usize = 1> {
     epsilon: f64,
     mean_f: f64,
     mean_h: [f64; K],
+    /// Those of the auxiliaries that are read; 0 before that is known.
+    integrals: [f64; K],
     spread: Option<Spread<K>>,
     tails: Option<Tails>,
     flags: Flags,
@@ -36,7 +39,7 @@ impl<const K: usize> Remarks<K> {
     /// Of an estimator that reads the auxiliaries whose integrals are `integrals`.
     pub(super) fn with_auxiliaries<S: HasMeans<K>>(sample: &Sample<'_, S>, integrals: &[f64; K]) -> Self {
         let means = sample.moments.means(sample.count);
-        let mut remarks = Self::new(sample, means.f, means.h);
+        let mut remarks = Self { integrals: *integrals, ..Self::new(sample, means.f, means.h) };
         for (k, integral) in integrals.iter().enumerate() {
             remarks.judge_auxiliary(k, *integral);
         }
@@ -66,7 +69,7 @@ impl<const K: usize> Remarks<K> {
             let heavy = sample.count >= 100 && tails.max_f * tails.max_f > 0.1 * squares;
             flags |= Flags::when(heavy, Flags::HEAVY_TAIL);
         }
-        Self { count: sample.count, epsilon: sample.epsilon, mean_f, mean_h, spread, tails, flags }
+        Self { count: sample.count, epsilon: sample.epsilon, mean_f, mean_h, integrals: [0.0; K], spread, tails, flags }
     }
 
     fn judge_auxiliary(&mut self, k: usize, integral: f64) {
@@ -101,9 +104,15 @@ impl<const K: usize> Remarks<K> {
         self
     }
 
+    /// These remarks and `more`.
+    pub(super) fn and(mut self, more: Flags) -> Self {
+        self.flags |= more;
+        self
+    }
+
     /// The plain mean, with its own error bar: what an undefined result falls back to.
     pub(super) fn plain(&self, why: Flags) -> ChannelEstimate {
-        self.finish(self.mean_f, &[0.0; K], 0.0, why)
+        self.finish(self.mean_f, &[0.0; K], why)
     }
 
     /// DENOM_ZERO, unless the flags already say why there is no estimate.
@@ -120,7 +129,22 @@ impl<const K: usize> Remarks<K> {
     pub(super) fn value_with_fit(&self, value: f64, c: &[f64; K], parameters: f64) -> ChannelEstimate {
         let value = value + 0.0; // −0 becomes 0
         let negative = Flags::when(value < 0.0 && self.mean_f >= 0.0, Flags::NEGATIVE);
-        self.finish(value, c, parameters, negative)
+        let estimate = self.finish(value, c, negative);
+        ChannelEstimate { std_error: estimate.std_error * self.wider(parameters), ..estimate }
+    }
+
+    /// By how much fitting `parameters` coefficients to the draws widens the error bar: they took that
+    /// many degrees of freedom from the residuals, and reach out from x̄ to H, as in any regression. NaN
+    /// where no freedom is left.
+    pub(super) fn wider(&self, parameters: f64) -> f64 {
+        let (n, Some(spread)) = (self.count as f64, self.spread.as_ref()) else { return 1.0 };
+        if parameters == 0.0 {
+            return 1.0;
+        }
+        let apart = core::array::from_fn(|k| self.integrals[k] - self.mean_h[k]);
+        let reach = 1.0 + n * leverage(spread, &apart, self.epsilon);
+        let freedom = n - 1.0 - parameters;
+        if freedom > 0.0 { libm::sqrt(reach * planted!("fit_freedom": (n - 1.0) / freedom, 1.0)) } else { f64::NAN }
     }
 
     /// `value`, whose variance is `variance_of_mean`.
@@ -134,18 +158,17 @@ impl<const K: usize> Remarks<K> {
         self.count >= 2 && !self.flags.contains(Flags::NO_SUPPORT)
     }
 
-    fn finish(&self, value: f64, c: &[f64; K], parameters: f64, flags: Flags) -> ChannelEstimate {
+    fn finish(&self, value: f64, c: &[f64; K], flags: Flags) -> ChannelEstimate {
         let mut flags = self.flags | flags;
         if self.count == 0 || !value.is_finite() {
             let value = if self.count == 0 { f64::NAN } else { value };
             // A finite mean that the formula drove out of range is undefined too.
             if self.count > 0 && self.mean_f.is_finite() && value != self.mean_f {
-                return self.finish(self.mean_f, &[0.0; K], 0.0, flags | Flags::NONFINITE);
+                return self.finish(self.mean_f, &[0.0; K], flags | Flags::NONFINITE);
             }
             return ChannelEstimate { value: f64::NAN, std_error: f64::NAN, flags };
         }
-        let freedom = self.count as f64 - planted!("std_error_divisor": 1.0, 0.0) - parameters;
-        let std_error = match self.spread.filter(|_| self.known_error() && freedom > 0.0) {
+        let std_error = match self.spread.filter(|_| self.known_error()) {
             None => f64::NAN,
             Some(spread) => {
                 let squares = spread.about(c);
@@ -157,8 +180,9 @@ impl<const K: usize> Remarks<K> {
                 let floor = scale * scale * (spread.ee + fitted);
                 let below = squares > 0.0 && squares < floor;
                 flags |= Flags::when(below, Flags::ROUNDING);
-                let variance = if below { floor } else { squares } / freedom;
-                let error = libm::sqrt(variance / self.count as f64);
+                let n = self.count as f64;
+                let variance = if below { floor } else { squares } / planted!("std_error_divisor": n - 1.0, n);
+                let error = libm::sqrt(variance / n);
                 if error.is_finite() { error } else { f64::NAN }
             }
         };

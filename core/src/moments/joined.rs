@@ -3,8 +3,8 @@
 use crate::moments::blocked::{Blocked, Kernel, State, Takes};
 use crate::moments::extremes::MayHaveTails;
 use crate::moments::read::{
-    Group, HasComoments, HasGroups, HasMeans, HasRatioMean, HasThirdMoments, Means, RatioMoments, Spread, Tails,
-    ThirdMoments,
+    Group, HasComoments, HasFolds, HasGroups, HasMeans, HasRatioMean, HasThirdMoments, Means, RatioMoments, Spread,
+    Tails, ThirdMoments,
 };
 
 /// Moments of several kinds side by side; each place is a kernel, or `()`, which takes no space and
@@ -17,11 +17,12 @@ use crate::moments::read::{
 /// | `G` | group means | `GroupsBlock` |
 /// | `E` | tails (the diagnostic tier) | `ExtremesBlock` |
 /// | `T` | third moments | `ThirdBlock` |
+/// | `F` | moments of two folds | `FoldsBlock` |
 ///
 /// As an accumulator it is `Blocked<Joined<…>>`; `Default`, or [`Blocked::with_ratios`] where the ratios are
 /// on a defensive auxiliary. As a state and as a channel it is `Joined` of the parts' states.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Joined<B, R = (), G = (), E = (), T = ()> {
+pub struct Joined<B, R = (), G = (), E = (), T = (), F = ()> {
     /// Means, and what spreads about them.
     pub base: B,
     /// Ratios f/h.
@@ -32,6 +33,8 @@ pub struct Joined<B, R = (), G = (), E = (), T = ()> {
     pub extremes: E,
     /// Third moments.
     pub third: T,
+    /// Folds.
+    pub folds: F,
 }
 
 impl Kernel for () {
@@ -105,8 +108,8 @@ impl<S: State, const L: usize> State for [S; L] {
     }
 }
 
-impl<B: Kernel, R: Kernel, G: Kernel, E: Kernel, T: Kernel> Kernel for Joined<B, R, G, E, T> {
-    type State = Joined<B::State, R::State, G::State, E::State, T::State>;
+impl<B: Kernel, R: Kernel, G: Kernel, E: Kernel, T: Kernel, F: Kernel> Kernel for Joined<B, R, G, E, T, F> {
+    type State = Joined<B::State, R::State, G::State, E::State, T::State, F::State>;
     const PARTIALS: usize = B::PARTIALS;
     #[inline(always)]
     fn empty(state: &Self::State) -> Self {
@@ -116,6 +119,7 @@ impl<B: Kernel, R: Kernel, G: Kernel, E: Kernel, T: Kernel> Kernel for Joined<B,
             groups: G::empty(&state.groups),
             extremes: E::empty(&state.extremes),
             third: T::empty(&state.third),
+            folds: F::empty(&state.folds),
         }
     }
     #[inline(always)]
@@ -125,6 +129,7 @@ impl<B: Kernel, R: Kernel, G: Kernel, E: Kernel, T: Kernel> Kernel for Joined<B,
         self.groups.fold(&other.groups);
         self.extremes.fold(&other.extremes);
         self.third.fold(&other.third);
+        self.folds.fold(&other.folds);
     }
     #[inline(always)]
     fn close(&self, state: &Self::State, count: u64) -> Self::State {
@@ -134,17 +139,19 @@ impl<B: Kernel, R: Kernel, G: Kernel, E: Kernel, T: Kernel> Kernel for Joined<B,
             groups: self.groups.close(&state.groups, count),
             extremes: self.extremes.close(&state.extremes, count),
             third: self.third.close(&state.third, count),
+            folds: self.folds.close(&state.folds, count),
         }
     }
 }
 
-impl<D, B, R, G, E, T> Takes<D> for Joined<B, R, G, E, T>
+impl<D, B, R, G, E, T, F> Takes<D> for Joined<B, R, G, E, T, F>
 where
     B: Takes<D>,
     R: Takes<D>,
     G: Takes<D>,
     E: Takes<D>,
     T: Takes<D>,
+    F: Takes<D>,
 {
     #[inline(always)]
     fn open(state: &Self::State, first: &D) -> Self {
@@ -154,6 +161,7 @@ where
             groups: G::open(&state.groups, first),
             extremes: E::open(&state.extremes, first),
             third: T::open(&state.third, first),
+            folds: F::open(&state.folds, first),
         }
     }
     #[inline(always)]
@@ -163,11 +171,12 @@ where
         self.groups.add(index, draw);
         self.extremes.add(index, draw);
         self.third.add(index, draw);
+        self.folds.add(index, draw);
     }
 }
 
-impl<B: State, R: State, G: State, E: State, T: State> State for Joined<B, R, G, E, T> {
-    type Channel = Joined<B::Channel, R::Channel, G::Channel, E::Channel, T::Channel>;
+impl<B: State, R: State, G: State, E: State, T: State, F: State> State for Joined<B, R, G, E, T, F> {
+    type Channel = Joined<B::Channel, R::Channel, G::Channel, E::Channel, T::Channel, F::Channel>;
     #[inline(always)]
     fn merge(&mut self, count: u64, later: &Self, later_count: u64) {
         self.base.merge(count, &later.base, later_count);
@@ -175,6 +184,7 @@ impl<B: State, R: State, G: State, E: State, T: State> State for Joined<B, R, G,
         self.groups.merge(count, &later.groups, later_count);
         self.extremes.merge(count, &later.extremes, later_count);
         self.third.merge(count, &later.third, later_count);
+        self.folds.merge(count, &later.folds, later_count);
     }
     fn channel(&self, channel: usize) -> Self::Channel {
         Joined {
@@ -183,16 +193,18 @@ impl<B: State, R: State, G: State, E: State, T: State> State for Joined<B, R, G,
             groups: self.groups.channel(channel),
             extremes: self.extremes.channel(channel),
             third: self.third.channel(channel),
+            folds: self.folds.channel(channel),
         }
     }
 }
 
-impl<V, B: Kernel, R: Kernel, G: Kernel, E: Kernel, T: Kernel> Blocked<V, Joined<B, R, G, E, T>>
+impl<V, B: Kernel, R: Kernel, G: Kernel, E: Kernel, T: Kernel, F: Kernel> Blocked<V, Joined<B, R, G, E, T, F>>
 where
     B::State: Default,
     G::State: Default,
     E::State: Default,
     T::State: Default,
+    F::State: Default,
 {
     /// An empty accumulator with the parameters of the (empty) ratio accumulator `ratios`.
     pub fn with_ratios(ratios: Blocked<V, R>) -> Self {
@@ -202,6 +214,7 @@ where
             groups: G::State::default(),
             extremes: E::State::default(),
             third: T::State::default(),
+            folds: F::State::default(),
         })
     }
 }
@@ -213,7 +226,7 @@ impl<V, B: Kernel> Blocked<V, [B; 2]> {
     }
 }
 
-impl<B: HasMeans<K>, R, G, E: MayHaveTails, T, const K: usize> HasMeans<K> for Joined<B, R, G, E, T> {
+impl<B: HasMeans<K>, R, G, E: MayHaveTails, T, F, const K: usize> HasMeans<K> for Joined<B, R, G, E, T, F> {
     fn means(&self, count: u64) -> Means<K> {
         self.base.means(count)
     }
@@ -225,13 +238,13 @@ impl<B: HasMeans<K>, R, G, E: MayHaveTails, T, const K: usize> HasMeans<K> for J
     }
 }
 
-impl<B: HasComoments<K>, R, G, E: MayHaveTails, T, const K: usize> HasComoments<K> for Joined<B, R, G, E, T> {
+impl<B: HasComoments<K>, R, G, E: MayHaveTails, T, F, const K: usize> HasComoments<K> for Joined<B, R, G, E, T, F> {
     fn comoments(&self) -> Spread<K> {
         self.base.comoments()
     }
 }
 
-impl<B, R: HasRatioMean, G, E, T> HasRatioMean for Joined<B, R, G, E, T> {
+impl<B, R: HasRatioMean, G, E, T, F> HasRatioMean for Joined<B, R, G, E, T, F> {
     fn ratio(&self, weight: f64, integral: f64) -> Option<RatioMoments> {
         self.ratios.ratio(weight, integral)
     }
@@ -244,7 +257,7 @@ impl<R: HasRatioMean, const L: usize> HasRatioMean for [R; L] {
     }
 }
 
-impl<B, R, G: HasGroups<K>, E, T, const K: usize> HasGroups<K> for Joined<B, R, G, E, T> {
+impl<B, R, G: HasGroups<K>, E, T, F, const K: usize> HasGroups<K> for Joined<B, R, G, E, T, F> {
     fn groups(&self) -> usize {
         self.groups.groups()
     }
@@ -253,8 +266,15 @@ impl<B, R, G: HasGroups<K>, E, T, const K: usize> HasGroups<K> for Joined<B, R, 
     }
 }
 
-impl<B, R, G, E, T: HasThirdMoments> HasThirdMoments for Joined<B, R, G, E, T> {
+impl<B, R, G, E, T: HasThirdMoments, F> HasThirdMoments for Joined<B, R, G, E, T, F> {
     fn third(&self) -> ThirdMoments {
         self.third.third()
+    }
+}
+
+impl<B, R, G, E, T, F: HasFolds> HasFolds for Joined<B, R, G, E, T, F> {
+    type Fold = F::Fold;
+    fn fold(&self, fold: usize) -> &F::Fold {
+        self.folds.fold(fold)
     }
 }

@@ -13,8 +13,10 @@ mod accumulate;
 mod blocked;
 mod comoments;
 mod extremes;
+mod folds;
 mod groups;
 mod joined;
+mod pairs;
 mod range;
 mod read;
 mod sums;
@@ -25,11 +27,13 @@ pub use accumulate::{Accumulate, AccumulateSlices, Merge, Moments, Widened};
 pub use blocked::{BLOCK, Blocked, Kernel, State, Takes};
 pub use comoments::{Comoments, ComomentsBlock, ComomentsState};
 pub use extremes::{Extremes, ExtremesBlock, ExtremesState, MayHaveTails};
+pub use folds::{Folds, FoldsBlock, FoldsState};
 pub use groups::{Groups, GroupsBlock, GroupsState};
 pub use joined::Joined;
+pub use pairs::{GroupedPairs, Pairs, PairsBlock, PairsState};
 pub use read::{
-    Group, HasComoments, HasGroups, HasMeans, HasRatioMean, HasThirdMoments, Means, RatioMoments, Spread, Tails,
-    ThirdMoments,
+    Group, HasComoments, HasFolds, HasGroups, HasMeans, HasPairs, HasRatioMean, HasThirdMoments, Means, RatioMoments,
+    Spread, Tails, ThirdMoments,
 };
 pub use sums::{Sums, SumsBlock, SumsState};
 pub use third::{Third, ThirdBlock, ThirdState};

@@ -126,6 +126,22 @@ pub trait HasGroups<const K: usize = 1> {
     fn group(&self, count: u64, group: usize) -> Group<K>;
 }
 
+/// Means of groups of `K` pairs (f, h), dealt round robin.
+pub trait HasPairs<const K: usize> {
+    /// The number of groups.
+    fn groups(&self) -> usize;
+    /// Pair `pair` of group `group` of a stream of `count` draws; panics if there is none.
+    fn group_of_pair(&self, count: u64, pair: usize, group: usize) -> Group;
+}
+
+/// Moments of the even- and of the odd-numbered draws.
+pub trait HasFolds {
+    /// The moments of a fold.
+    type Fold;
+    /// Fold `fold`, (N + 1 − fold)/2 draws of N; panics unless it is 0 or 1.
+    fn fold(&self, fold: usize) -> &Self::Fold;
+}
+
 /// Third central moments, as sums, of f and h about their means.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThirdMoments {
