@@ -92,7 +92,12 @@ fn mild(support: &[Point], spread: f64) -> Vec<Point> {
     let (f, h) = (expectation(support, |y, _| y), expectation(support, |_, x| x));
     support
         .iter()
-        .map(|point| Point { y: f + spread * (point.y - f), x: vec![h + spread * (point.x[0] - h)], p: point.p })
+        .map(|point| Point {
+            y: f + spread * (point.y - f),
+            x: vec![h + spread * (point.x[0] - h)],
+            p: point.p,
+            w: vec![],
+        })
         .collect()
 }
 

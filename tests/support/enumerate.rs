@@ -97,7 +97,7 @@ mod tests {
 
     #[test]
     fn probabilities_of_all_samples_sum_to_one() {
-        let point = |p| Point { y: 0.0, x: vec![], p };
+        let point = |p| Point { y: 0.0, x: vec![], p, w: vec![] };
         let support = [point(0.25), point(0.5), point(0.25)];
         let exact = over_groups(&support, 3, 4, 0.0, |groups| {
             assert_eq!(groups.iter().map(|group| group.len()).sum::<usize>(), 12);

@@ -49,6 +49,9 @@ pub struct Point {
     /// The probability.
     #[serde(deserialize_with = "fraction")]
     pub p: f64,
+    /// The weights of two techniques.
+    #[serde(default, deserialize_with = "fractions")]
+    pub w: Vec<f64>,
 }
 
 /// The exact moments of an estimator.
@@ -85,6 +88,44 @@ pub struct Params {
     pub eps: Option<f64>,
     /// The number of groups.
     pub groups: Option<usize>,
+    /// The coefficients, one per auxiliary, or a single one.
+    alpha: Option<OneOrMany>,
+    /// The coefficients of a difference.
+    beta: Option<Vec<Number>>,
+    /// The range of α.
+    pub clamp: Option<Vec<Number>>,
+    /// α where it is not determined.
+    #[serde(default, deserialize_with = "maybe_number")]
+    pub fallback_alpha: Option<f64>,
+    /// What becomes of dependent auxiliaries: `min_norm` or `zero`.
+    pub singular: Option<String>,
+    /// The number of auxiliaries.
+    #[serde(rename = "K")]
+    pub auxiliaries: Option<usize>,
+    /// The weights of techniques.
+    pub weights: Option<Weights>,
+}
+
+/// The weights of a deterministic mixture.
+#[derive(Clone, Copy, Debug, Deserialize)]
+pub enum Weights {
+    /// Those of the points.
+    #[serde(rename = "w")]
+    Given,
+    /// w_k = x_k/Σx_j.
+    #[serde(rename = "balance")]
+    Balance,
+}
+
+impl Params {
+    /// α or β, one per auxiliary.
+    pub fn coefficients(&self) -> Vec<f64> {
+        match (&self.alpha, &self.beta) {
+            (Some(alpha), _) => alpha.all(),
+            (None, Some(beta)) => beta.iter().map(|number| number.0).collect(),
+            (None, None) => Vec::new(),
+        }
+    }
 }
 
 /// Estimates from one sample.
@@ -136,6 +177,14 @@ impl OneOrMany {
         match self {
             Self::One(number) => number.0,
             Self::Many(numbers) => numbers[0].0,
+        }
+    }
+
+    /// Of every auxiliary.
+    pub fn all(&self) -> Vec<f64> {
+        match self {
+            Self::One(number) => vec![number.0],
+            Self::Many(numbers) => numbers.iter().map(|number| number.0).collect(),
         }
     }
 }

@@ -14,7 +14,7 @@ pub enum Dependent {
     MinimumNorm,
     /// Leave out those that the others explain.
     Drop,
-    /// No coefficient at all: the plain mean.
+    /// No coefficient at all, the plain mean; also where one auxiliary is constant in the draws.
     Plain,
 }
 
@@ -92,7 +92,7 @@ impl Regression {
                 let least = fitted.of_minimum_norm();
                 core::array::from_fn(|k| wanted[k] * least[k])
             }
-            Dependent::Plain if lacks_rank => [0.0; K],
+            Dependent::Plain if fitted.determined != [1.0; K] => [0.0; K],
             _ => fitted.x,
         };
         let flags = Flags::when(lacks_rank, Flags::RANK);

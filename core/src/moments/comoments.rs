@@ -124,8 +124,8 @@ impl<V: Lanes, const K: usize> Squares<V, K> {
     {
         let f_scale = (0..K).fold(self.ee, |sum, k| sum + slope[k] * slope[k] * self.hh[k][k]);
         self.ee = unless_underflowed(self.ee, f_scale, e, smallest);
-        for k in 0..K {
-            self.hh[k][k] = unless_underflowed(self.hh[k][k], self.hh[k][k], h[k], smallest);
+        for (k, h) in h.iter().enumerate() {
+            self.hh[k][k] = unless_underflowed(self.hh[k][k], self.hh[k][k], *h, smallest);
         }
         self
     }

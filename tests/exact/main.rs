@@ -1,98 +1,26 @@
 //! The golden values, by exact enumeration through the public API.
 
-use ratiocv_core::moments::{Accumulate, Groups, Moments};
+mod records;
+
+use ratiocv_core::moments::{Accumulate, Moments};
 use ratiocv_core::{
-    Beale, Defensive, Draw, Estimator, HartleyRoss, Integrals, MeanOfRatios, Mickey, Plain, Quenouille, RatioOfMeans,
-    Reads, Tin,
+    Beale, Draw, Estimator, HartleyRoss, Integrals, MeanOfRatios, Plain, Quenouille, RatioOfMeans, Reads, Tin,
 };
 use ratiocv_tests::enumerate::{Exact, over_groups};
-use ratiocv_tests::golden::{Golden, Law, Params, Point, beyond, seed};
+use ratiocv_tests::golden::{Law, Params, Point, beyond, seed};
+use records::{Known, defended, estimator_of};
+use std::collections::BTreeMap;
 
-/// An estimate from draws in their order.
-type Estimate = Box<dyn FnMut(&mut dyn Iterator<Item = Draw<f64>>) -> f64>;
-
-/// `estimator` on its own error-bar moments, known integral `h`.
-fn on_own_moments<E>(estimator: E, h: f64) -> Estimate
-where
-    E: Reads + Estimator<<E::ErrorBar<f64> as Moments>::Channel> + 'static,
-{
-    let integrals = Integrals::new([h]);
-    let empty = estimator.error_bar(&integrals);
-    Box::new(move |draws| read(&estimator, empty, draws, &integrals))
+/// Points of a sample given group by group, dealt round robin, as the accumulators deal them.
+fn dealt<'a>(support: &'a [Point], groups: &'a [&'a [usize]]) -> impl Iterator<Item = &'a Point> {
+    (0..groups[0].len()).flat_map(move |i| groups.iter().map(move |group| &support[group[i]]))
 }
 
-fn read<E: Estimator<M::Channel>, M>(
-    estimator: &E,
-    mut moments: M,
-    draws: &mut dyn Iterator<Item = Draw<f64>>,
-    integrals: &Integrals<f64>,
-) -> f64
-where
-    M: Accumulate<Draw<f64>> + Moments<Lanes = f64>,
-{
-    for draw in draws {
-        moments.add(draw);
-    }
-    estimator.estimate(&moments, integrals).map_or(f64::NAN, |estimate| estimate.value)
-}
-
-/// Mickey, raw or defensive, with any number of groups that the golden values have.
-fn mickey<E>(estimator: E, groups: usize, h: f64) -> Option<Estimate>
-where
-    E: Copy
-        + 'static
-        + Estimator<<Groups<f64, 2> as Moments>::Channel>
-        + Estimator<<Groups<f64, 4> as Moments>::Channel>
-        + Estimator<<Groups<f64, 8> as Moments>::Channel>,
-{
-    let integrals = Integrals::new([h]);
-    Some(match groups {
-        2 => Box::new(move |draws| read(&estimator, Groups::<f64, 2>::default(), draws, &integrals)),
-        4 => Box::new(move |draws| read(&estimator, Groups::<f64, 4>::default(), draws, &integrals)),
-        8 => Box::new(move |draws| read(&estimator, Groups::<f64, 8>::default(), draws, &integrals)),
-        _ => return None,
-    })
-}
-
-fn defended<E: Reads>(estimator: E, weight: f64) -> Defensive<E> {
-    estimator.defensive(weight).expect("a weight in range")
-}
-
-/// The estimator of a record, and into how many exchangeable groups its draws fall; `None` for
-/// records of estimators that are not here yet.
-fn estimator_of(id: &str, params: &Params, h: f64) -> Option<(Estimate, usize)> {
-    // The golden values mix e + (1−e)x with H′ = e + (1−e)H; that is our mixture at another weight.
-    let weight = params.eps.map_or(f64::NAN, |e| e / (e + (1.0 - e) * h));
-    let groups = params.groups.unwrap_or(1);
-    let ours = match id {
-        "mc" => on_own_moments(Plain, h),
-        "ratio" => on_own_moments(RatioOfMeans, h),
-        "quenouille" => return Some((on_own_moments(Quenouille, h), 2)),
-        "beale" => on_own_moments(Beale, h),
-        "tin" => on_own_moments(Tin, h),
-        "mean_of_ratios" => on_own_moments(MeanOfRatios, h),
-        "hartley_ross" => on_own_moments(HartleyRoss, h),
-        "defensive_ratio" => on_own_moments(defended(RatioOfMeans, weight), h),
-        "defensive_hartley_ross" => on_own_moments(defended(HartleyRoss, weight), h),
-        "mickey" => mickey(Mickey, groups, h)?,
-        "defensive_mickey" => mickey(defended(Mickey, weight), groups, h)?,
-        _ => return None,
-    };
-    Some((ours, groups))
-}
-
-/// Draws of a sample given group by group, dealt round robin, as the accumulators deal them.
-fn dealt<'a>(support: &'a [Point], groups: &'a [&'a [usize]], unit: f64) -> impl Iterator<Item = Draw<f64>> + 'a {
-    (0..groups[0].len()).flat_map(move |i| {
-        groups.iter().map(move |group| Draw::new(support[group[i]].y, support[group[i]].x[0] / unit))
-    })
-}
-
-/// What was compared, and how far off the worst of it was, in units of what is allowed.
+/// What was compared, by id, and how far off the worst of it was.
 #[derive(Debug, Default)]
 struct Tally {
-    compared: usize,
-    other_estimators: usize,
+    compared: BTreeMap<String, usize>,
+    elsewhere: usize,
     other_divisor: usize,
     worst: f64,
 }
@@ -104,10 +32,18 @@ impl Tally {
         self.worst = self.worst.max(error);
     }
 
-    fn check_moments(&mut self, law: &Law, h: f64, unit: f64) {
+    fn count(&mut self, id: &str) {
+        *self.compared.entry(id.to_owned()).or_default() += 1;
+    }
+
+    fn total(&self) -> usize {
+        self.compared.values().sum()
+    }
+
+    fn check_moments(&mut self, law: &Law, known: &Known) {
         for record in &law.results {
-            let Some((mut estimate, groups)) = estimator_of(&record.id, &record.params, h) else {
-                self.other_estimators += 1;
+            let Some((mut estimate, groups)) = estimator_of(&record.id, &record.params, known) else {
+                self.elsewhere += 1;
                 continue;
             };
             if record.params.ddof == Some(0) {
@@ -116,7 +52,7 @@ impl Tally {
             }
             let Exact { expectation, bias, mse } =
                 over_groups(&law.support, groups, record.n / groups, law.f, |groups| {
-                    estimate(&mut dealt(&law.support, groups, unit))
+                    estimate(&mut dealt(&law.support, groups))
                 });
             let (right, right_bias, right_mse) = (record.expectation, record.bias, record.mse);
             let (right, right_bias, right_mse) = (right.unwrap(), right_bias.unwrap(), right_mse.unwrap());
@@ -125,13 +61,9 @@ impl Tally {
             self.compare(expectation, right, scale, 1e-12, &format!("expectation, {what}"));
             self.compare(bias, right_bias, scale, 1e-12, &format!("bias, {what}"));
             self.compare(mse, right_mse, right_mse + law.f * law.f, 1e-12, &format!("MSE, {what}"));
-            self.compared += 1;
+            self.count(&record.id);
         }
     }
-}
-
-fn law_count(golden: &Golden) -> usize {
-    golden.distributions.len()
 }
 
 #[test]
@@ -139,38 +71,42 @@ fn moments_of_the_seeds_estimators_are_exact() {
     let golden = seed();
     let mut tally = Tally::default();
     for law in &golden.distributions {
-        tally.check_moments(law, law.h.first(), 1.0);
+        tally.check_moments(law, &Known { h: law.h.all(), unit: 1.0 });
     }
     println!("{tally:?}");
-    assert_eq!(law_count(&golden), 6);
-    // 9 estimators on 6 laws at 5 sizes, Quenouille at the 4 even ones.
-    assert_eq!(tally.compared, 9 * 30 - 6);
+    assert_eq!(golden.distributions.len(), 6);
+    let records: usize = golden.distributions.iter().map(|law| law.results.len()).sum();
+    // Beale and Tin with divisor N are other estimators.
     assert_eq!(tally.other_divisor, 2 * 30);
+    assert_eq!((tally.elsewhere, tally.total()), (0, records - tally.other_divisor));
 }
 
 #[test]
-fn moments_of_grouped_mickey_are_exact() {
+fn moments_beyond_the_seed_are_exact() {
     let golden = beyond();
     let mut tally = Tally::default();
     for law in &golden.distributions {
         // These were computed on x/H.
-        tally.check_moments(law, 1.0, law.h.first());
+        tally.check_moments(law, &Known { h: law.h.all(), unit: law.h.first() });
     }
     println!("{tally:?}");
-    // Groups 2 | 2, 4 | 2, 4, 8 at N = 2, 4, 8, raw and defensive, on 6 laws.
-    assert_eq!(tally.compared, 2 * 6 * 6);
+    let records: usize = golden.distributions.iter().map(|law| law.results.len()).sum();
+    // Midzuno and Sen's first draw is sampled differently.
+    assert_eq!((tally.elsewhere, tally.total()), (18, records - 18));
 }
 
 #[test]
 fn single_samples_give_the_golden_estimates() {
     let golden = seed();
     let mut tally = Tally::default();
+    let mut records = 0;
     for law in &golden.distributions {
+        let known = Known { h: law.h.all(), unit: 1.0 };
         for sample in &law.pointwise {
-            let draw = |i: &usize| Draw::new(law.support[*i].y, law.support[*i].x[0]);
+            records += sample.values.len();
             for record in &sample.values {
-                let Some((mut estimate, groups)) = estimator_of(&record.id, &record.params, law.h.first()) else {
-                    tally.other_estimators += 1;
+                let Some((mut estimate, groups)) = estimator_of(&record.id, &record.params, &known) else {
+                    tally.elsewhere += 1;
                     continue;
                 };
                 if record.params.ddof == Some(0) {
@@ -183,17 +119,16 @@ fn single_samples_give_the_golden_estimates() {
                 if groups == 2 {
                     order = (0..half).flat_map(|i| [i, half + i]).collect();
                 }
-                let ours = estimate(&mut order.iter().map(|i| draw(&sample.sample[*i])));
-                let what = format!("{} {:?} {}", law.name, sample.sample, record.id);
+                let ours = estimate(&mut order.iter().map(|i| &law.support[sample.sample[*i]]));
+                let what = format!("{} {:?} {} {:?}", law.name, sample.sample, record.id, record.params);
                 tally.compare(ours, record.value, record.value.abs().max(law.f.abs()), 1e-13, &what);
-                tally.compared += 1;
+                tally.count(&record.id);
             }
         }
     }
     println!("{tally:?}");
-    // Two samples a law; of 4 draws (9 estimators) and of 7 (8: no halves).
-    assert_eq!(tally.compared, 6 * (9 + 8));
     assert_eq!(tally.other_divisor, 6 * 2 * 2);
+    assert_eq!((tally.elsewhere, tally.total()), (0, records - tally.other_divisor));
 }
 
 /// Where h = 0 has positive probability, undefined samples fall back, flagged, with exactly the
@@ -204,10 +139,11 @@ fn undefined_samples_are_as_frequent_as_the_golden_values_say() {
     for law in &seed().singular {
         let h = law.h.first();
         for record in law.results.iter().filter(|record| record.params.ddof != Some(0)) {
-            let Some(groups) = estimator_of(&record.id, &record.params, h).map(|(_, groups)| groups) else { continue };
+            let known = Known { h: law.h.all(), unit: 1.0 };
+            let (_, groups) = estimator_of(&record.id, &record.params, &known).expect("an estimator of ours");
             let weight = record.params.eps.map_or(0.0, |e| e / (e + (1.0 - e) * h));
             let exact = over_groups(&law.support, groups, record.n / groups, 0.0, |groups| {
-                let draws: Vec<_> = dealt(&law.support, groups, 1.0).collect();
+                let draws: Vec<_> = dealt(&law.support, groups).map(|point| Draw::new(point.y, point.x[0])).collect();
                 f64::from(u8::from(fell_back(&record.id, weight, h, &draws)))
             });
             let what = format!("{} N={} {}", law.name, record.n, record.id);
@@ -250,12 +186,12 @@ fn lemma_9_holds_exactly() {
     for law in &seed().distributions {
         let h = law.h.first();
         for n in [2, 3, 8] {
-            let (mut ratio, _) = estimator_of("ratio", &Params::default(), h).expect("the ratio of means");
-            let bias =
-                over_groups(&law.support, 1, n, law.f, |groups| ratio(&mut dealt(&law.support, groups, 1.0))).bias;
+            let known = Known { h: law.h.all(), unit: 1.0 };
+            let (mut ratio, _) = estimator_of("ratio", &Params::default(), &known).expect("the ratio of means");
+            let bias = over_groups(&law.support, 1, n, law.f, |groups| ratio(&mut dealt(&law.support, groups))).bias;
             let covariance = over_groups(&law.support, 1, n, 0.0, |groups| {
                 let mean_h = groups[0].iter().map(|i| law.support[*i].x[0]).sum::<f64>() / n as f64;
-                ratio(&mut dealt(&law.support, groups, 1.0)) * (mean_h - h)
+                ratio(&mut dealt(&law.support, groups)) * (mean_h - h)
             });
             let (right, scale) = (-covariance.expectation / h, law.f.abs() + covariance.mse.sqrt());
             assert!((bias - right).abs() <= 1e-13 * scale, "{} N={n}: {bias:e} should be {right:e}", law.name);
