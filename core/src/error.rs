@@ -43,6 +43,36 @@ pub enum Error {
         /// The length that it has.
         got: usize,
     },
+    /// An entry of a table of weights is negative, infinite or NaN.
+    TableEntry {
+        /// What the table holds.
+        what: &'static str,
+        /// The number of the entry.
+        index: usize,
+        /// The entry.
+        value: f64,
+    },
+    /// No entry of a table of weights is positive.
+    TableOfZeros {
+        /// What the table holds.
+        what: &'static str,
+    },
+    /// A channel was put into a stratum that is not there.
+    NoSuchStratum {
+        /// The channel.
+        channel: usize,
+        /// Its stratum.
+        stratum: usize,
+        /// The number of strata.
+        strata: usize,
+    },
+    /// Fewer draws than strata.
+    TooFewForStrata {
+        /// The number of draws.
+        draws: u64,
+        /// The number of strata.
+        strata: usize,
+    },
     /// A flag was raised, and the caller asked for none ([`Estimate::strict`](crate::Estimate::strict)).
     Flagged {
         /// The first channel with a flag.
@@ -71,6 +101,18 @@ impl fmt::Display for Error {
             ),
             Self::LengthMismatch { what, expected, got } => {
                 write!(f, "{what} has length {got} and needs {expected}: give one entry per draw and channel")
+            }
+            Self::TableEntry { what, index, value } => {
+                write!(f, "{what} {index} is {value}: give a finite number that is not negative")
+            }
+            Self::TableOfZeros { what } => write!(f, "no {what} is positive: give at least one that is"),
+            Self::NoSuchStratum { channel, stratum, strata } => write!(
+                f,
+                "channel {channel} is in stratum {stratum} of {strata}: number the strata from 0 and give each channel one of \
+                 them"
+            ),
+            Self::TooFewForStrata { draws, strata } => {
+                write!(f, "{draws} draws for {strata} strata: give every stratum at least one, or join strata")
             }
             Self::Flagged { channel, flags } => write!(
                 f,

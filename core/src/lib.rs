@@ -59,6 +59,7 @@ pub mod moments;
 mod planted;
 pub mod predict;
 mod problem;
+pub mod sampling;
 mod scaled;
 mod solve;
 mod spectrum;

@@ -62,23 +62,38 @@ impl<F, A, P, X> Problem<F, A, P, X> {
 
 impl<F: Integrand<X>, A, P: Proposal<Point = X>, X> Problem<F, A, P, X> {
     /// One draw: f(X)/g(X) and h_k(X)/g(X) at a point X ~ g.
-    ///
-    /// Where the pdf is 0 and so is the value, the quotient is 0: a point that the proposal returned
-    /// by rounding at the edge of its support carries nothing.
     #[inline(always)]
     pub fn draw<R: Rng + ?Sized, const K: usize>(&self, rng: &mut R) -> Draw<F::Value, K>
     where
         A: Auxiliaries<X, F::Value, K>,
     {
-        let x = self.proposal.sample(rng);
-        let pdf = F::Value::narrow(<F::Value as Lanes>::Wide::splat(self.proposal.pdf(&x)));
+        self.draw_at(&self.proposal.sample(rng))
+    }
+
+    /// f(x)/g(x) and h_k(x)/g(x) at a point of the caller's choice.
+    ///
+    /// Where the pdf is 0 and so is the value, the quotient is 0: a point that the proposal returned
+    /// by rounding at the edge of its support carries nothing.
+    ///
+    /// ```
+    /// use ratiocv_core::{sampling::Choice, Problem};
+    /// let sum = Problem::new(|i: &usize| [1.0, 3.0][*i]).proposal(Choice::new(&[0.5, 0.5])?);
+    /// assert_eq!((sum.draw_at::<0>(&0).f, sum.draw_at::<0>(&1).f), (2.0, 6.0)); // their mean is 1 + 3
+    /// # Ok::<(), ratiocv_core::Error>(())
+    /// ```
+    #[inline(always)]
+    pub fn draw_at<const K: usize>(&self, x: &X) -> Draw<F::Value, K>
+    where
+        A: Auxiliaries<X, F::Value, K>,
+    {
+        let pdf = F::Value::narrow(<F::Value as Lanes>::Wide::splat(self.proposal.pdf(x)));
         let over = |value: F::Value| {
             // A division, never a product with 1/pdf: that overflows for the smallest pdfs.
             let quotient = value / pdf;
             let nothing = F::Value::select(F::Value::equal(value, F::Value::ZERO), F::Value::ZERO, quotient);
             F::Value::select(F::Value::equal(pdf, F::Value::ZERO), nothing, quotient)
         };
-        Draw { f: over(self.integrand.value(&x)), h: self.auxiliaries.values(&x).map(over) }
+        Draw { f: over(self.integrand.value(x)), h: self.auxiliaries.values(x).map(over) }
     }
 
     /// The known integrals of the auxiliaries.

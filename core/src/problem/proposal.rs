@@ -19,6 +19,19 @@ pub trait Proposal {
     fn pdf(&self, x: &Self::Point) -> f64;
 }
 
+/// A proposal may be lent.
+impl<P: Proposal> Proposal for &P {
+    type Point = P::Point;
+    #[inline]
+    fn sample<R: Rng + ?Sized>(&self, rng: &mut R) -> P::Point {
+        P::sample(self, rng)
+    }
+    #[inline]
+    fn pdf(&self, x: &P::Point) -> f64 {
+        P::pdf(self, x)
+    }
+}
+
 /// A number in [0, 1) with 53 random bits, every multiple of 2⁻⁵³ equally likely.
 ///
 /// ```
