@@ -12,6 +12,45 @@ pub struct Golden {
     /// Laws with h = 0 at a point.
     #[serde(default)]
     pub singular: Vec<Law>,
+    /// Vectors to be summed by importance sampling.
+    #[serde(default)]
+    pub importance_sampling: Vec<ImportanceSampling>,
+}
+
+/// A vector-valued function on a few points, ways to sample them, and the total variance of each.
+#[derive(Debug, Deserialize)]
+pub struct ImportanceSampling {
+    /// Its name.
+    pub name: String,
+    /// `f[channel][point]`.
+    pub f: Vec<Vec<f64>>,
+    /// A density over the points.
+    #[serde(deserialize_with = "fractions")]
+    pub g: Vec<f64>,
+    /// Densities of channels or strata, `gk[k][point]`.
+    #[serde(deserialize_with = "tables")]
+    pub gk: Vec<Vec<f64>>,
+    /// Probabilities of channels.
+    #[serde(deserialize_with = "fractions")]
+    pub pk: Vec<f64>,
+    /// Probabilities of acceptance, `accept[channel][point]`.
+    #[serde(deserialize_with = "tables")]
+    pub accept: Vec<Vec<f64>>,
+    /// The channels of each stratum.
+    pub strata: Vec<Vec<usize>>,
+    /// The number of draws.
+    #[serde(rename = "N")]
+    pub n: u64,
+    /// Of each stratum.
+    #[serde(rename = "Nk")]
+    pub nk: Vec<u64>,
+    /// F, per channel.
+    #[serde(rename = "F")]
+    pub total: Vec<Number>,
+    /// Total variances by id.
+    pub variance: BTreeMap<String, Number>,
+    /// The density of the least total variance.
+    pub optimal_g: Vec<Number>,
 }
 
 /// A discrete law of draws, and what each estimator makes of it.
@@ -227,6 +266,12 @@ fn fraction<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error>
 fn fractions<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
     let texts = Vec::<String>::deserialize(deserializer)?;
     texts.iter().map(|text| parse_fraction(text).map_err(serde::de::Error::custom)).collect()
+}
+
+fn tables<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Vec<f64>>, D::Error> {
+    #[derive(Deserialize)]
+    struct Row(#[serde(deserialize_with = "fractions")] Vec<f64>);
+    Ok(Vec::<Row>::deserialize(deserializer)?.into_iter().map(|Row(row)| row).collect())
 }
 
 /// The estimators of the seed on six laws, and singular laws.
