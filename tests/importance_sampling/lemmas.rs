@@ -55,7 +55,7 @@ fn best_mixture<const M: usize, const B: usize>(f: &Table<M, B>) -> f64 {
     total(&mixture(f, &chosen(sums(&sizes)), &sizes.map(chosen)))
 }
 
-/// Σ_k √(variance of stratum k)²: what the best allocation divides by N.
+/// Σ_j F_j².
 fn squares<const M: usize, const B: usize>(f: &Table<M, B>) -> f64 {
     sums(f).iter().map(|sum| sum * sum).sum()
 }
@@ -187,5 +187,8 @@ fn no_allocation_is_better_than_neymans_where_its_quotas_are_whole() {
         }
     }
     assert_eq!(tried, 23 * 22 * 21 / 6);
-    assert_eq!(strata.proportional(24), allocate(24, &[1.0; 4]));
+    assert_eq!(strata.proportional(24), Ok([6; 4]));
+    // Largest remainders: 4.5 is rounded up, 2.5 down.
+    assert_eq!(allocate(10, &[4.5, 2.5, 3.0]), Ok([5, 2, 3]));
+    assert_eq!(allocate(11, &[0.6, 5.9, 4.4, 0.1]), Ok([1, 5, 4, 1]));
 }

@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::planted::planted;
 use crate::sampling::table;
+use core::cmp::Ordering;
 
 /// Splits `draws` over strata in proportion to `weights`: whole numbers, at least 1, that add up to
 /// `draws` exactly.
@@ -35,20 +36,18 @@ pub fn allocate<const K: usize>(draws: u64, weights: &[f64; K]) -> Result<[u64; 
         let given: u128 = counts.iter().map(|count| u128::from(*count)).sum();
         let remainder = |k: usize| quotas[k] - counts[k] as f64;
         match given.cmp(&u128::from(draws)) {
-            core::cmp::Ordering::Equal => return Ok(counts),
-            core::cmp::Ordering::Less => {
-                let more = |best, k| if remainder(k) > remainder(best) { k } else { best };
-                let lucky = (0..K).fold(0, planted!("largest_remainder": more, |_, k| k));
-                counts[lucky] += 1;
+            Ordering::Equal => return Ok(counts),
+            Ordering::Less => {
+                let larger = |k, best| planted!("largest_remainder": remainder(k) > remainder(best), true);
+                let taker = (0..K).fold(0, |best, k| if larger(k, best) { k } else { best });
+                counts[taker] += 1;
             }
-            core::cmp::Ordering::Greater => {
-                let less = |best: Option<usize>, k| match best {
-                    Some(best) if remainder(best) <= remainder(k) => Some(best),
-                    _ => Some(k),
-                };
-                let giver = (0..K).filter(|k| counts[*k] > 1).fold(None, less);
-                // There is one: the counts add up to more than `draws` ≥ K.
-                giver.into_iter().for_each(|k| counts[k] -= 1);
+            Ordering::Greater => {
+                // There is one above 1: the counts add up to more than `draws` ≥ K.
+                let smaller = |k: usize, best: usize| counts[best] <= 1 || remainder(k) < remainder(best);
+                let giver =
+                    (0..K).filter(|k| counts[*k] > 1).fold(0, |best, k| if smaller(k, best) { k } else { best });
+                counts[giver] -= 1;
             }
         }
     }
@@ -64,6 +63,9 @@ mod tests {
         assert_eq!(allocate(8, &[1.0, 1.0, 1.0]), Ok([3, 3, 2]));
         assert_eq!(allocate(100, &[0.1, 0.2, 0.7]), Ok([10, 20, 70]));
         assert_eq!(allocate(1, &[3.0]), Ok([1]));
+        // Quotas of 0.06, 2.97 and 2.97: one is left over; of 0.10, four times, and 3.81, twice: two are missing.
+        assert_eq!(allocate(6, &[0.1, 5.0, 5.0]), Ok([1, 3, 2]));
+        assert_eq!(allocate(8, &[0.1, 4.0, 0.1, 0.1, 4.0, 0.1]), Ok([1, 2, 1, 1, 2, 1]));
         assert_eq!(allocate(3, &[1.0, 0.0, 1e-300]), Ok([1, 1, 1]));
         assert_eq!(allocate(10, &[6.0, 3.6, 0.1, 0.1, 0.1, 0.1]), Ok([4, 2, 1, 1, 1, 1]));
     }
