@@ -70,6 +70,7 @@ fn check<const M: usize, const B: usize, const K: usize>(name: &str) -> usize {
         let right = record.variance[id].0;
         // A variance of 0 is left with the squares of roundings.
         assert_close(ours, right, 1e-12 * right.max(1e-12), &format!("{name} {id}"));
+        println!("{name} {id}: {ours:e}, off by {:e}", (ours - right).abs());
     }
     ours.len()
 }

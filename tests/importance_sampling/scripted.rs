@@ -39,5 +39,5 @@ pub(crate) fn played<T>(script: &[f64], draw: impl FnOnce(&mut Scripted<'_>) -> 
 pub(crate) fn first_and_last<const B: usize>(choice: &Choice<B>, index: usize) -> Option<[f64; 2]> {
     let below: f64 = (0..index).map(|i| choice.pdf(&i)).sum(); // exact: multiples of 2⁻⁵³
     let p = choice.pdf(&index);
-    (p > 0.0).then(|| [below, below + p - PART])
+    (p > 0.0).then_some([below, below + p - PART])
 }

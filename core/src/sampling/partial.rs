@@ -10,7 +10,7 @@ use rand_core::Rng;
 /// X ~ g, and a set of channels, of which channel j is a member with probability a_j(X).
 ///
 /// A point is (X, accepted channels), its pdf g(X). The integrand is f_j·1{accepted_j}/a_j
-/// ([`Accepted::value`]), where the seed's Eq. 4 lacks the indicator: unbiased, with variance
+/// ([`Accepted::value`]), where the supplement's Eq. 4 lacks the indicator: unbiased, with variance
 /// (∫f_j²/(g·a_j) − F_j²)/N in channel j, never less than with a_j = 1 (supplement, Lemma 6): for
 /// channels that are dear to evaluate where they are small. Rejected samples count as draws, of
 /// value 0. a_j(x) must be positive wherever f_j(x) is not 0, as a pdf must.
