@@ -83,6 +83,18 @@ fn lemma_1_no_density_is_better_than_the_l2_norms() {
     assert!(total(&vector(&SIGNED, &chosen(l1))) >= best_vector(&SIGNED) + 0.1);
 }
 
+/// Three coloured lights, of which one is chosen: by luminance, or by the L2 norm of its colour.
+#[test]
+fn lights_chosen_by_norm_have_less_variance_than_by_luminance() {
+    // By channel, then by light.
+    let lights: Table<3, 3> = [[3000.0, 3.0, 4.8], [5.0, 3000.0, 5.8], [6.0, 4.0, 3000.0]];
+    let luminance = [0.212671, 0.715160, 0.072169];
+    let by_luminance = core::array::from_fn(|light| (0..3).map(|j| luminance[j] * lights[j][light]).sum());
+    let gain = total(&vector(&lights, &chosen(by_luminance))) / best_vector(&lights);
+    println!("by luminance: {gain} times the total variance");
+    assert!((2.6..=2.9).contains(&gain), "{gain}");
+}
+
 #[test]
 fn lemma_2_zero_variance_needs_multiples_of_the_norm_of_constant_sign() {
     let shape = [1.0, 0.0, 3.0, 0.5];

@@ -18,8 +18,9 @@ pub(super) const PARTS: f64 = (1_u64 << 53) as f64;
 /// a positive weight has at least 2⁻⁵³, and all of them add up to exactly 1. An index that is not
 /// there has probability 0. A choice takes one random number and log₂ `B` comparisons.
 ///
-/// Three lights, seen in three channels: by luminance the red one would be starved, by the L2 norm
-/// each is chosen as often as the total variance wants it (supplement, Lemma 1).
+/// Lights of different colours are best chosen by the L2 norm of what they send (supplement, Lemma 1):
+/// for three of them, red, green and blue, the total variance is 2.8 times less than by luminance
+/// (`tests/importance_sampling/lemmas.rs`).
 ///
 /// ```
 /// use ratiocv_core::{sampling::Choice, Proposal, Spectrum};

@@ -23,7 +23,7 @@ pub fn l2_norm<V: Lanes>(value: V) -> f64 {
     }
     let exponent = libm::frexp(largest).1;
     let scaled = channels().map(|x| libm::ldexp(x, -exponent));
-    let squares: f64 = scaled.map(|x| planted!("l2_norm_power": x * x, x)).sum();
+    let squares: f64 = scaled.map(|x| planted!("norm_power": x * x, x)).sum();
     libm::ldexp(libm::sqrt(squares), exponent)
 }
 
