@@ -5,7 +5,8 @@ use ratiocv_core::moments::{
 };
 use ratiocv_core::predict::{Order, Population, Predict, Prediction};
 use ratiocv_core::{
-    Beale, Draw, Estimator, HartleyRoss, Integrals, MeanOfRatios, Mickey, Plain, Quenouille, RatioOfMeans, Reads, Tin,
+    Beale, Choose, CrossFitted, Difference, Draw, Estimator, HartleyRoss, Integrals, Jackknife, MeanOfRatios, Mickey,
+    OptimalDefensive, Plain, Quenouille, RatioOfMeans, Reads, Regression, RegressionRatio, Tin,
 };
 use ratiocv_tests::assert_close;
 use ratiocv_tests::enumerate::over_groups;
@@ -136,7 +137,7 @@ fn second_order_terms_are_those_of_the_exact_moments() {
         if groups < 8 {
             assert_close(second_coefficient(mse.0, exact.map(|e| e.mse)), mse.1, 0.02 * mse.1.abs(), &what("MSE"));
         } else {
-            // Mickey's coefficient changes with the number of groups, of which 4 draws make fewer.
+            // The coefficient changes with the number of groups, of which 4 draws make fewer.
             let eight = estimator.predict(&ours, 8, Order::Second).mse;
             let right = (eight - mse.0 / 8.0) * 64.0;
             let [d8, d16] = [(exact[1], 8.0), (exact[2], 16.0)].map(|(e, n)| n * (n * e.mse - mse.0));
@@ -144,6 +145,10 @@ fn second_order_terms_are_those_of_the_exact_moments() {
         }
         if bias == (0.0, 0.0) {
             assert_close(exact[2].bias, 0.0, 1e-15, &what("bias"));
+        } else if groups == 8 {
+            let right = estimator.predict(&ours, 8, Order::Second).bias * 64.0;
+            let [d8, d16] = [(exact[1], 8.0), (exact[2], 16.0)].map(|(e, n)| n * n * e.bias);
+            assert_close(2.0 * d16 - d8, right, 0.02 * right.abs(), &what("bias"));
         } else {
             assert_close(second_coefficient(bias.0, exact.map(|e| e.bias)), bias.1, 0.02 * bias.1.abs(), &what("bias"));
         }
@@ -158,6 +163,98 @@ fn second_order_terms_are_those_of_the_exact_moments() {
         check(name, &support, Beale, 1);
         check(name, &support, Tin, 1);
         check(name, &support, Mickey, 8);
+        check(name, &support, Jackknife, 8);
+    }
+}
+
+/// The first-order bias and MSE of fitted and of given coefficients are the limits of N times the exact
+/// ones, found by enumeration.
+#[test]
+fn first_order_terms_of_regressions_are_those_of_the_exact_moments() {
+    fn limit(values: [f64; 3]) -> f64 {
+        // Values at N, 2N and 4N; Richardson's extrapolation, twice.
+        let [a, b] = [2.0 * values[1] - values[0], 2.0 * values[2] - values[1]];
+        (4.0 * b - a) / 3.0
+    }
+    fn check<E, P>(law: &str, support: &[Point], estimator: E, predicted: P)
+    where
+        P: Predict,
+        E: Estimator<<ratiocv_core::moments::Comoments<f64> as Moments>::Channel>,
+    {
+        let ours = population(support, 0.125);
+        let integrals = Integrals::new([ours.h]);
+        let exact = [12, 24, 48].map(|n: usize| {
+            over_groups(support, 1, n, ours.f, |sample| {
+                let mut moments = ratiocv_core::moments::Comoments::<f64>::default();
+                for i in sample[0] {
+                    moments.add(Draw::new(support[*i].y, support[*i].x[0]));
+                }
+                estimator.estimate(&moments, &integrals).expect("enough draws").value
+            })
+        });
+        let n = [12.0, 24.0, 48.0];
+        let right = predicted.predict(&ours, 1 << 20, Order::First);
+        let scale = f64::from(1 << 20);
+        let bias = limit(core::array::from_fn(|i| n[i] * exact[i].bias));
+        let mse = limit(core::array::from_fn(|i| n[i] * exact[i].mse));
+        let plain = Plain.predict(&ours, 1, Order::First).mse;
+        assert_close(mse, scale * right.mse, 0.03 * scale * right.mse + 0.002 * plain, &format!("{law}: N·MSE"));
+        let tolerance = 0.05 * (scale * right.bias).abs() + 0.002 * plain.sqrt();
+        assert_close(bias, scale * right.bias, tolerance, &format!("{law}: N·bias"));
+    }
+    let regression = Regression { shrink: false, ..Regression::default() };
+    let (difference, ratio) = (Difference { regression }, RegressionRatio { regression, ..RegressionRatio::default() });
+    let optimal = OptimalDefensive { regression, ..<OptimalDefensive>::default() };
+    for (name, spread) in [("skewed_h", 0.05), ("negative_correlation", 0.2), ("independent", 0.2)] {
+        let golden = seed();
+        let law = golden.distributions.iter().find(|law| law.name == name).expect("a law of that name");
+        let support = mild(&law.support, spread);
+        check(name, &support, difference, difference);
+        check(name, &support, ratio, ratio);
+        for alpha in [-0.5, 0.5, 2.0] {
+            check(name, &support, ratio.fixed([alpha]), ratio.fixed([alpha]));
+        }
+        let best = population(&support, 0.125);
+        if (0.0..0.9).contains(&(best.f_c11 / best.f / best.c20)) {
+            check(name, &support, optimal, optimal);
+        }
+    }
+}
+
+#[test]
+fn predictions_of_choosers_are_those_of_what_they_choose() {
+    for law in &seed().distributions {
+        let ours = population(&law.support, 0.125);
+        let (plain, ratio) =
+            (Plain.predict(&ours, 100, Order::Second), RatioOfMeans.predict(&ours, 100, Order::Second));
+        let difference = Difference::default().predict(&ours, 100, Order::Second);
+        let least = plain.mse.min(ratio.mse).min(difference.mse);
+        assert_eq!(Choose::default().predict(&ours, 100, Order::Second).mse, least);
+        // The regression's least variance is that of the golden values, and its cost is that of 50 draws.
+        let right = law.constants.as_ref().expect("constants").first_order["mse_best_difference_cv_K1"].0;
+        let scale = 1e-13 * ours.ff_c02;
+        let cross_fitted = CrossFitted(Difference::default());
+        assert_close(difference.mse * 100.0 * 97.0 / 98.0, right, scale, &law.name);
+        assert_close(
+            cross_fitted.predict(&ours, 100, Order::Second).mse * 100.0 * 47.0 / 48.0,
+            right,
+            scale,
+            &law.name,
+        );
+        assert_eq!(cross_fitted.predict(&ours, 100, Order::Second).bias, 0.0);
+        let unbiased = CrossFitted(Choose::default()).predict(&ours, 100, Order::Second);
+        assert!(unbiased.bias == 0.0 && unbiased.mse <= plain.mse && unbiased.mse <= difference.mse * 1.03);
+        // Clamped, the optimal defensive ratio is the ratio or plain.
+        let alpha = ours.f_c11 / ours.f / ours.c20;
+        let optimal = <OptimalDefensive>::default().predict(&ours, 100, Order::First).mse;
+        if alpha < 0.0 {
+            assert_close(optimal, Plain.predict(&ours, 100, Order::First).mse, scale, &law.name);
+        } else if alpha < 0.99 {
+            assert_close(optimal * 100.0, right, scale, &law.name);
+        } else {
+            let weight = RatioOfMeans.defensive(0.01).unwrap();
+            assert_close(optimal, weight.predict(&ours, 100, Order::First).mse, scale, &law.name);
+        }
     }
 }
 
@@ -235,4 +332,7 @@ fn what_is_not_known_is_not_predicted() {
     assert!(RatioOfMeans.defensive(0.25).unwrap().predict(&ours, 8, Order::Second).mse.is_finite());
     assert!(HartleyRoss.predict(&ours, 1, Order::Second).mse.is_nan());
     assert!(Mickey.predict(&ours, 1, Order::Second).mse.is_nan());
+    assert!(Jackknife.predict(&ours, 1, Order::Second).mse.is_nan());
+    assert!(Difference::default().predict(&ours, 3, Order::Second).mse.is_nan());
+    assert!(CrossFitted(Difference::default()).predict(&ours, 7, Order::Second).mse.is_nan());
 }

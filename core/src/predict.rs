@@ -3,7 +3,10 @@
 //! To first and to second order in 1/N (Tin 1965, with the seed's misprints put right); exact for
 //! plain Monte Carlo, the mean of ratios and Hartley–Ross.
 
-use crate::estimator::{Beale, Defensive, HartleyRoss, MeanOfRatios, Mickey, Plain, Quenouille, RatioOfMeans, Tin};
+use crate::estimator::{
+    Beale, Choose, CrossFitted, Defensive, Difference, Fixed, HartleyRoss, Jackknife, MeanOfRatios, Mickey,
+    OptimalDefensive, Plain, Quenouille, RatioOfMeans, RegressionRatio, Tin,
+};
 use crate::moments::{HasComoments, HasRatioMean, HasThirdMoments, Means};
 use crate::planted::planted;
 
@@ -169,6 +172,30 @@ impl Population {
         if v < 0.0 { 0.0 } else { v }
     }
 
+    /// Var(y − c·x) for c = `alpha`·R: the first-order MSE, times N, of whatever has that coefficient.
+    fn v_at(&self, alpha: f64) -> f64 {
+        let c = alpha * self.f;
+        let v = self.ff_c02 + c * (c * self.c20 - 2.0 * self.f_c11);
+        if v < 0.0 { 0.0 } else { v }
+    }
+
+    /// Var(y − β*x), the least of all; plain's where h is constant.
+    fn v_least(&self) -> f64 {
+        let explained = self.f_c11 * (self.f_c11 / self.c20);
+        let v = if self.c20 == 0.0 { self.ff_c02 } else { self.ff_c02 - explained };
+        if v < 0.0 { 0.0 } else { v }
+    }
+
+    /// α* = C11/C20, the best multiple of R.
+    fn best_alpha(&self) -> f64 {
+        if self.f_c11 == 0.0 { 0.0 } else { self.f_c11 / self.c20 / self.f }
+    }
+
+    /// −F(C21 − aC30)/C20 with a = C11/C20: the bias, times N, of β̂ fitted to the draws that it serves.
+    fn fitting_bias(&self) -> f64 {
+        if self.c20 == 0.0 { 0.0 } else { (self.f_c11 / self.c20 * self.c30 - self.f_c21) / self.c20 }
+    }
+
     /// The 1/N² coefficient of the MSE of Beale and Tin: F²\[C02C20 + C11² − 4C11C20 + 2C20²\].
     fn second_mse(&self) -> f64 {
         let Self { f, c20, f_c11, ff_c02, .. } = *self;
@@ -263,6 +290,99 @@ impl Predict for Mickey {
         let e = p.a();
         let second = groups / (groups - 1.0) * (p.c20 * p.v() + 3.0 * e * e);
         Prediction { bias: 0.0, mse: expansion(p.v(), second, draws, order) }
+    }
+}
+
+impl Predict for Jackknife {
+    /// For 8 groups, or one per draw below 8 draws.
+    fn predict(&self, p: &Population, draws: u64, order: Order) -> Prediction {
+        let groups = if draws < 2 { f64::NAN } else { draws.min(8) as f64 };
+        let (factor, e) = (groups / (groups - 1.0), p.a());
+        almost_unbiased(p, -factor * (p.d() + 3.0 * p.s()), factor * (p.c20 * p.v() + e * e), draws, order)
+    }
+}
+
+/// What one fitted coefficient costs: the factor (n − 2)/(n − 3) of a regression on n Gaussian draws
+/// (Lavenberg and Welch 1981), taken for the second order of all laws.
+fn fitted(variance: f64, draws: u64, parts: u64, order: Order) -> f64 {
+    let n = (draws / parts) as f64;
+    let factor = match order {
+        Order::First => 1.0,
+        Order::Second if n <= 3.0 => f64::NAN,
+        Order::Second => (n - 2.0) / (n - 3.0),
+    };
+    variance / draws as f64 * factor
+}
+
+impl Predict for Difference {
+    fn predict(&self, p: &Population, draws: u64, order: Order) -> Prediction {
+        Prediction {
+            bias: planted!("predict_fitting_bias": p.fitting_bias(), 0.0) / draws as f64,
+            mse: fitted(p.v_least(), draws, 1, order),
+        }
+    }
+}
+
+impl Predict for CrossFitted<Difference> {
+    /// Bias 0; each half of the draws with a coefficient from the other half.
+    fn predict(&self, p: &Population, draws: u64, order: Order) -> Prediction {
+        Prediction { bias: 0.0, mse: fitted(p.v_least(), draws, 2, order) }
+    }
+}
+
+impl Predict for Fixed<RegressionRatio, f64> {
+    /// For the α given, to first order.
+    fn predict(&self, p: &Population, draws: u64, _: Order) -> Prediction {
+        let [alpha] = self.coefficients;
+        let bias = alpha * (planted!("predict_alpha": alpha + 1.0, alpha) / 2.0 * p.f * p.c20 - p.f_c11);
+        Prediction { bias: bias / draws as f64, mse: p.v_at(alpha) / draws as f64 }
+    }
+}
+
+impl Predict for RegressionRatio {
+    /// With α learned from the draws; where the clamp acts, that of the clamped α.
+    fn predict(&self, p: &Population, draws: u64, order: Order) -> Prediction {
+        let (alpha, (least, greatest)) = (p.best_alpha(), self.clamp);
+        if alpha < least || alpha > greatest {
+            let clamped = if alpha < least { least } else { greatest };
+            return self.fixed([clamped]).predict(p, draws, order);
+        }
+        let bias = p.fitting_bias() + p.f * alpha * (alpha - 1.0) / 2.0 * p.c20;
+        Prediction { bias: bias / draws as f64, mse: fitted(p.v_least(), draws, 1, order) }
+    }
+}
+
+impl<E: Predict> Predict for OptimalDefensive<E> {
+    /// To first order; where a is clamped, that of `E` with the clamped weight.
+    fn predict(&self, p: &Population, draws: u64, order: Order) -> Prediction {
+        let (alpha, most) = (p.best_alpha(), 1.0 - self.floor);
+        if alpha < 0.0 || alpha > most {
+            let clamped = if alpha < 0.0 { 0.0 } else { most };
+            return self.estimator.predict(&p.on_defensive(1.0 - clamped), draws, order);
+        }
+        Prediction { bias: p.fitting_bias() / draws as f64, mse: fitted(p.v_least(), draws, 1, order) }
+    }
+}
+
+impl Predict for Choose {
+    /// That of the best of plain, ratio and difference.
+    fn predict(&self, p: &Population, draws: u64, order: Order) -> Prediction {
+        let mut best = Plain.predict(p, draws, order);
+        for other in [RatioOfMeans.predict(p, draws, order), Difference::default().predict(p, draws, order)] {
+            if other.mse < best.mse {
+                best = other;
+            }
+        }
+        best
+    }
+}
+
+impl Predict for CrossFitted<Choose> {
+    /// Bias 0; the least of the first-order errors, with what fitting costs.
+    fn predict(&self, p: &Population, draws: u64, order: Order) -> Prediction {
+        let given = p.v_at(0.0).min(p.v()) / draws as f64;
+        let own = fitted(p.v_least(), draws, 2, order);
+        Prediction { bias: 0.0, mse: if own < given { own } else { given } }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::outcomes::{Outcome, Table, magnitudes, mixture, moments, partial, stratum, sums, total, values, vector};
 use ratiocv_core::moments::{Accumulate, Moments, Variance};
-use ratiocv_core::sampling::{Choice, Strata};
+use ratiocv_core::sampling::{Discrete, Strata};
 use ratiocv_core::{Estimator, Flags, Integrals, Plain, Proposal, Spectrum};
 use ratiocv_tests::assert_close;
 use ratiocv_tests::golden::{ImportanceSampling, seed};
@@ -16,8 +16,8 @@ fn table<const M: usize, const B: usize>(rows: &[Vec<f64>]) -> Table<M, B> {
     core::array::from_fn(|j| row(&rows[j]))
 }
 
-fn choice<const B: usize>(weights: &[f64]) -> Choice<B> {
-    Choice::new(&row(weights)).expect("a table of weights")
+fn choice<const B: usize>(weights: &[f64]) -> Discrete<B> {
+    Discrete::new(&row(weights)).expect("a table of weights")
 }
 
 /// The record of `name`.
@@ -31,9 +31,9 @@ fn check<const M: usize, const B: usize, const K: usize>(name: &str) -> usize {
     let f: Table<M, B> = table(&record.f);
     let n = record.n as f64;
     let g = choice::<B>(&record.g);
-    let gk: [Choice<B>; M] = core::array::from_fn(|k| choice(&record.gk[k]));
+    let gk: [Discrete<B>; M] = core::array::from_fn(|k| choice(&record.gk[k]));
     let pk = choice::<M>(&record.pk);
-    let best = Choice::by_norm(&values(&f)).expect("norms");
+    let best = Discrete::by_norm(&values(&f)).expect("norms");
     let sizes = magnitudes(&f);
 
     for (point, right) in record.optimal_g.iter().enumerate() {
@@ -47,16 +47,16 @@ fn check<const M: usize, const B: usize, const K: usize>(name: &str) -> usize {
         record.strata.iter().position(|stratum| stratum.contains(&j)).expect("a stratum for every channel")
     })
     .expect("strata in range");
-    let stratified = |g: &dyn Fn(usize) -> Choice<B>| {
+    let stratified = |g: &dyn Fn(usize) -> Discrete<B>| {
         let of = |k: usize| total(&unbiased(&f, strata.channels(k), stratum(&f, &strata, k, &g(k))));
         (0..K).map(|k| of(k) / record.nk[k] as f64).sum::<f64>()
     };
-    let own_norms = |k: usize| -> Choice<B> {
-        Choice::by_norm(&core::array::from_fn::<_, B, _>(|point| strata.value(k, |j| f[j][point]))).expect("norms")
+    let own_norms = |k: usize| -> Discrete<B> {
+        Discrete::by_norm(&core::array::from_fn::<_, B, _>(|point| strata.value(k, |j| f[j][point]))).expect("norms")
     };
     let all = || 0..M;
-    let best_pk = Choice::new(&sums(&sizes)).expect("channels that are not 0");
-    let best_gk = sizes.map(|row| Choice::new(&row).expect("a channel that is not 0"));
+    let best_pk = Discrete::new(&sums(&sizes)).expect("channels that are not 0");
+    let best_gk = sizes.map(|row| Discrete::new(&row).expect("a channel that is not 0"));
     let ours = [
         ("vector_is", total(&unbiased(&f, all(), vector(&f, &g))) / n),
         ("vector_is_optimal", total(&unbiased(&f, all(), vector(&f, &best))) / n),

@@ -2,7 +2,7 @@
 
 use crate::outcomes::{Table, magnitudes, mixture, partial, stratum, sums, total, values, vector};
 use ratiocv_core::Spectrum;
-use ratiocv_core::sampling::{Choice, Strata, allocate};
+use ratiocv_core::sampling::{Discrete, Strata, allocate};
 use ratiocv_tests::assert_close;
 use ratiocv_tests::samples::Noise;
 
@@ -33,8 +33,8 @@ fn steps() -> impl Iterator<Item = f64> {
     (0..300).map(|i| [1e-3, 1e-2, 0.1, 0.3, 1.0][i % 5])
 }
 
-fn chosen<const B: usize>(weights: [f64; B]) -> Choice<B> {
-    Choice::new(&weights).expect("weights")
+fn chosen<const B: usize>(weights: [f64; B]) -> Discrete<B> {
+    Discrete::new(&weights).expect("weights")
 }
 
 fn shares<const B: usize>(weights: [f64; B]) -> [f64; B] {
@@ -47,7 +47,7 @@ fn norms<const M: usize, const B: usize>(f: &Table<M, B>) -> [f64; B] {
 }
 
 fn best_vector<const M: usize, const B: usize>(f: &Table<M, B>) -> f64 {
-    total(&vector(f, &Choice::by_norm(&values(f)).expect("norms")))
+    total(&vector(f, &Discrete::by_norm(&values(f)).expect("norms")))
 }
 
 fn best_mixture<const M: usize, const B: usize>(f: &Table<M, B>) -> f64 {

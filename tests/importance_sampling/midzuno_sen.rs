@@ -3,7 +3,7 @@
 use crate::scripted::{PART, Scripted, first_and_last, played};
 use core::cell::Cell;
 use ratiocv_core::moments::{Moments, Sums};
-use ratiocv_core::sampling::{Choice, PiecewiseConstant};
+use ratiocv_core::sampling::{Discrete, PiecewiseConstant};
 use ratiocv_core::{Error, Estimator, Flags, Problem, Proposal, RatioOfMeans, Spectrum, Uniform, WithIntegral};
 use ratiocv_tests::assert_close;
 use ratiocv_tests::enumerate::{Exact, over_groups};
@@ -17,8 +17,8 @@ fn exact<const B: usize>(law: &Law, n: usize) -> Exact {
     let table = |of: &dyn Fn(&ratiocv_tests::golden::Point) -> f64| -> [f64; B] {
         points().map(of).collect::<Vec<_>>().try_into().expect("as many points")
     };
-    let p = Choice::new(&table(&|point| point.p)).expect("probabilities");
-    let first = Choice::new(&table(&|point| point.p * point.x[0])).expect("x/H");
+    let p = Discrete::new(&table(&|point| point.p)).expect("probabilities");
+    let first = Discrete::new(&table(&|point| point.p * point.x[0])).expect("x/H");
     let problem = Problem::new(|i: &usize| law.support[*i].y * law.support[*i].p)
         .auxiliary(WithIntegral::new(|i: &usize| law.support[*i].x[0] / h * law.support[*i].p, 1.0))
         .proposal(p);
@@ -74,8 +74,8 @@ const F: [[f64; 3]; 2] = [[1.0, 4.0, 2.0], [5.0, 1.0, -1.0]];
 const H: [[f64; 3]; 2] = [[1.0, 2.0, 1.0], [0.5, 0.5, 3.0]];
 
 /// E\[estimate\] − F in both channels, of two draws with the first from `firsts`.
-fn bias(firsts: &[Choice<3>]) -> [f64; 2] {
-    let g = Choice::new(&[0.5, 0.25, 0.25]).expect("weights");
+fn bias(firsts: &[Discrete<3>]) -> [f64; 2] {
+    let g = Discrete::new(&[0.5, 0.25, 0.25]).expect("weights");
     let pair = |of: [[f64; 3]; 2], i: usize| Spectrum([of[0][i], of[1][i]]);
     let problem = Problem::new(move |i: &usize| pair(F, *i))
         .auxiliary(WithIntegral::new(move |i: &usize| pair(H, *i), Spectrum([4.0, 4.0])))
@@ -104,7 +104,7 @@ fn bias(firsts: &[Choice<3>]) -> [f64; 2] {
 
 #[test]
 fn one_first_draw_serves_its_channel_and_one_for_each_serves_all() {
-    let own = H.map(|h| Choice::new(&h).expect("h/H"));
+    let own = H.map(|h| Discrete::new(&h).expect("h/H"));
     let [first, second] = bias(&own[..1]);
     assert!(first.abs() <= 1e-14 && second.abs() >= 0.1, "{first} {second}");
     let [first, second] = bias(&own);

@@ -1,7 +1,7 @@
 //! All outcomes of one draw, and their exact moments.
 
 use crate::scripted::{PART, first_and_last, played};
-use ratiocv_core::sampling::{Accepted, Choice, Partial, RandomMixture, Strata, in_channel};
+use ratiocv_core::sampling::{Accepted, Discrete, Partial, RandomMixture, Strata, in_channel};
 use ratiocv_core::{Draw, Lanes, Problem, Proposal, Spectrum};
 use ratiocv_tests::sum::Sum;
 
@@ -43,12 +43,12 @@ pub(crate) fn values<const M: usize, const B: usize>(f: &Table<M, B>) -> [Spectr
 }
 
 /// Scripts that make `choice` choose each index, with its probability.
-fn choices<const B: usize>(choice: &Choice<B>) -> impl Iterator<Item = (usize, f64, [f64; 2])> + '_ {
+fn choices<const B: usize>(choice: &Discrete<B>) -> impl Iterator<Item = (usize, f64, [f64; 2])> + '_ {
     (0..B).filter_map(|i| first_and_last(choice, i).map(|ends| (i, choice.pdf(&i), ends)))
 }
 
 /// Estimator 1: vector-valued importance sampling.
-pub(crate) fn vector<const M: usize, const B: usize>(f: &Table<M, B>, g: &Choice<B>) -> Vec<Outcome<M>> {
+pub(crate) fn vector<const M: usize, const B: usize>(f: &Table<M, B>, g: &Discrete<B>) -> Vec<Outcome<M>> {
     let problem = Problem::new(|point: &usize| at(f, *point)).proposal(*g);
     let draw = |u: f64| played(&[u], |rng| problem.draw(rng));
     choices(g)
@@ -64,7 +64,7 @@ pub(crate) fn stratum<const M: usize, const B: usize, const K: usize>(
     f: &Table<M, B>,
     strata: &Strata<Spectrum<f64, M>, K>,
     k: usize,
-    g: &Choice<B>,
+    g: &Discrete<B>,
 ) -> Vec<Outcome<M>> {
     let problem = Problem::new(|point: &usize| strata.value(k, |j| f[j][*point])).proposal(*g);
     choices(g).map(|(_, p, [first, _])| (p, played(&[first], |rng| problem.draw(rng)))).collect()
@@ -73,8 +73,8 @@ pub(crate) fn stratum<const M: usize, const B: usize, const K: usize>(
 /// Estimator 3: random mixture.
 pub(crate) fn mixture<const M: usize, const B: usize>(
     f: &Table<M, B>,
-    choice: &Choice<M>,
-    g: &[Choice<B>; M],
+    choice: &Discrete<M>,
+    g: &[Discrete<B>; M],
 ) -> Vec<Outcome<M>> {
     let problem = Problem::new(|(k, point): &(usize, usize)| in_channel::<Spectrum<f64, M>>(*k, f[*k][*point]))
         .proposal(RandomMixture::new(*choice, *g));
@@ -92,7 +92,7 @@ pub(crate) fn mixture<const M: usize, const B: usize>(
 /// Estimator 4: partial; every set of accepted channels.
 pub(crate) fn partial<const M: usize, const B: usize>(
     f: &Table<M, B>,
-    g: &Choice<B>,
+    g: &Discrete<B>,
     accept: &Table<M, B>,
 ) -> Vec<Outcome<M>> {
     type Point<const M: usize> = (usize, Accepted<Spectrum<f64, M>>);

@@ -5,7 +5,7 @@ use crate::scripted::{PART, first_and_last, played};
 use rand_core::SeedableRng;
 use rand_pcg::Pcg64;
 use ratiocv_core::moments::{Accumulate, Moments, Variance};
-use ratiocv_core::sampling::{Accepted, Choice, Partial, PiecewiseConstant, RandomMixture, Strata, in_channel};
+use ratiocv_core::sampling::{Accepted, Discrete, Partial, PiecewiseConstant, RandomMixture, Strata, in_channel};
 use ratiocv_core::{
     Draw, Error, Estimate, Estimator, Flags, Integrals, Plain, Problem, Proposal, RatioOfMeans, Spectrum, Uniform,
     WithIntegral,
@@ -33,7 +33,7 @@ fn check(estimate: &Estimate<Rgb>) {
 }
 
 fn mixture() -> RandomMixture<PiecewiseConstant<32>, 3> {
-    RandomMixture::new(Choice::new(&[2.0, 0.5, 0.25]).expect("weights"), core::array::from_fn(table))
+    RandomMixture::new(Discrete::new(&[2.0, 0.5, 0.25]).expect("weights"), core::array::from_fn(table))
 }
 
 #[test]
@@ -59,7 +59,7 @@ fn continuous_problems_come_out_right() {
 
 #[test]
 fn every_random_number_chooses_what_the_probabilities_say() {
-    let choice = Choice::new(&[0.3, 0.0, 1e-300, 0.7, 0.0, 1e-5, 0.0]).expect("weights");
+    let choice = Discrete::new(&[0.3, 0.0, 1e-300, 0.7, 0.0, 1e-5, 0.0]).expect("weights");
     for index in 0..7 {
         let Some(ends) = first_and_last(&choice, index) else {
             assert!([1, 4, 6].contains(&index));
@@ -76,7 +76,7 @@ fn every_random_number_chooses_what_the_probabilities_say() {
 #[test]
 fn points_stay_in_their_bins_and_the_density_is_that_of_the_bin() {
     let density = PiecewiseConstant::<49>::new(&core::array::from_fn(|i| (i % 5) as f64)).expect("weights");
-    let bins = Choice::<49>::new(&core::array::from_fn(|i| (i % 5) as f64)).expect("weights");
+    let bins = Discrete::<49>::new(&core::array::from_fn(|i| (i % 5) as f64)).expect("weights");
     let mut carried = 0;
     for bin in 0..49 {
         let Some([first, last]) = first_and_last(&bins, bin) else { continue };

@@ -3,7 +3,7 @@
 use core::convert::Infallible;
 use rand_core::TryRng;
 use ratiocv_core::Proposal;
-use ratiocv_core::sampling::Choice;
+use ratiocv_core::sampling::Discrete;
 
 /// One unit of what a random number in [0, 1) can tell apart.
 pub(crate) const PART: f64 = f64::EPSILON / 2.0;
@@ -36,7 +36,7 @@ pub(crate) fn played<T>(script: &[f64], draw: impl FnOnce(&mut Scripted<'_>) -> 
 }
 
 /// The first and the last number that make `choice` choose `index`; `None` if it has probability 0.
-pub(crate) fn first_and_last<const B: usize>(choice: &Choice<B>, index: usize) -> Option<[f64; 2]> {
+pub(crate) fn first_and_last<const B: usize>(choice: &Discrete<B>, index: usize) -> Option<[f64; 2]> {
     let below: f64 = (0..index).map(|i| choice.pdf(&i)).sum(); // exact: multiples of 2⁻⁵³
     let p = choice.pdf(&index);
     (p > 0.0).then_some([below, below + p - PART])

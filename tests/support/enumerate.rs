@@ -54,9 +54,9 @@ pub fn multisets(support: &[Point], group_size: usize) -> Vec<(Vec<usize>, f64)>
 
 /// n!/Πc!, exact for the sizes used here.
 pub fn multinomial(counts: &[usize]) -> f64 {
-    let (mut value, mut n) = (1u64, 0u64);
+    let (mut value, mut n) = (1u128, 0u128);
     for count in counts {
-        for i in 1..=*count as u64 {
+        for i in 1..=*count as u128 {
             n += 1;
             value = value * n / i;
         }

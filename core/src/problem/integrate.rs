@@ -76,8 +76,8 @@ impl<F: Integrand<X>, A, P: Proposal<Point = X>, X> Problem<F, A, P, X> {
     /// by rounding at the edge of its support carries nothing.
     ///
     /// ```
-    /// use ratiocv_core::{sampling::Choice, Problem};
-    /// let sum = Problem::new(|i: &usize| [1.0, 3.0][*i]).proposal(Choice::new(&[0.5, 0.5])?);
+    /// use ratiocv_core::{sampling::Discrete, Problem};
+    /// let sum = Problem::new(|i: &usize| [1.0, 3.0][*i]).proposal(Discrete::new(&[0.5, 0.5])?);
     /// assert_eq!((sum.draw_at::<0>(&0).f, sum.draw_at::<0>(&1).f), (2.0, 6.0)); // their mean is 1 + 3
     /// # Ok::<(), ratiocv_core::Error>(())
     /// ```

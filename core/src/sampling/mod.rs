@@ -5,7 +5,7 @@
 //!
 //! | estimator of the supplement | here | variance of channel j | least total at |
 //! |---|---|---|---|
-//! | 1, vector-valued | any [`Proposal`](crate::Proposal) | (∫f_j²/g − F_j²)/N | g ∝ √Σ_j f_j² (Lemma 1): [`Choice::by_norm`], [`PiecewiseConstant::by_norm`] |
+//! | 1, vector-valued | any [`Proposal`](crate::Proposal) | (∫f_j²/g − F_j²)/N | g ∝ √Σ_j f_j² (Lemma 1): [`Discrete::by_norm`], [`PiecewiseConstant::by_norm`] |
 //! | 2, entry-wise stratification | [`Strata`] | (∫f_j²/g_k − F_j²)/N_k, k = k(j) | N_k ∝ σ_k: [`Strata::neyman`] |
 //! | 3, random mixture | [`RandomMixture`] | (∫f_j²/(p_j g_j) − F_j²)/N | p_j g_j ∝ \|f_j\| (Lemma 4) |
 //! | 4, partial | [`Partial`] | (∫f_j²/(g a_j) − F_j²)/N | a_j = 1: Estimator 1 (Lemma 6) |
@@ -21,7 +21,7 @@
 //! of means: one draw from the auxiliary makes it unbiased.
 
 mod allocate;
-mod choice;
+mod discrete;
 mod l2_norm;
 mod midzuno_sen;
 mod partial;
@@ -31,7 +31,7 @@ mod strata;
 mod table;
 
 pub use allocate::allocate;
-pub use choice::Choice;
+pub use discrete::Discrete;
 pub use l2_norm::l2_norm;
 pub use partial::{Accepted, Partial};
 pub use piecewise_constant::PiecewiseConstant;

@@ -3,7 +3,7 @@
 use crate::lanes::{Lanes, Scalar};
 use crate::planted::planted;
 use crate::problem::{Proposal, unit_interval};
-use crate::sampling::choice::PARTS;
+use crate::sampling::discrete::PARTS;
 use core::marker::PhantomData;
 use rand_core::Rng;
 

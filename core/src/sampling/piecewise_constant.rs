@@ -4,11 +4,11 @@ use crate::error::Error;
 use crate::lanes::Lanes;
 use crate::planted::planted;
 use crate::problem::{Proposal, unit_interval};
-use crate::sampling::Choice;
+use crate::sampling::Discrete;
 use rand_core::Rng;
 
 /// A density on \[0, 1), constant on each of `B` bins of equal width: p_i·`B` on bin i, where p_i is
-/// the probability that a [`Choice`] gives it.
+/// the probability that a [`Discrete`] gives it.
 ///
 /// A point takes two random numbers. The density of a bin of weight 0 is 0, and so it is outside
 /// \[0, 1) and at NaN. An integrand that is not 0 in such a bin would be missed there: add a hundredth
@@ -28,25 +28,25 @@ use rand_core::Rng;
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct PiecewiseConstant<const B: usize> {
-    bins: Choice<B>,
+    bins: Discrete<B>,
 }
 
 impl<const B: usize> PiecewiseConstant<B> {
     /// Proportional to `weights[i]` on \[i/`B`, (i+1)/`B`).
     ///
     /// # Errors
-    /// As [`Choice::new`].
+    /// As [`Discrete::new`].
     pub fn new(weights: &[f64; B]) -> Result<Self, Error> {
-        Ok(Self { bins: Choice::new(weights)? })
+        Ok(Self { bins: Discrete::new(weights)? })
     }
 
     /// Proportional to the L2 norm over channels of `values[i]` on \[i/`B`, (i+1)/`B`): the optimum of
     /// vector-valued importance sampling (supplement, Lemma 1) for an integrand with these values.
     ///
     /// # Errors
-    /// As [`Choice::new`], for the norms.
+    /// As [`Discrete::new`], for the norms.
     pub fn by_norm<V: Lanes>(values: &[V; B]) -> Result<Self, Error> {
-        Ok(Self { bins: Choice::by_norm(values)? })
+        Ok(Self { bins: Discrete::by_norm(values)? })
     }
 
     /// The bin of `x`, which is in \[0, 1): the last whose edge i/`B`, rounded, does not exceed it.

@@ -3,7 +3,7 @@
 use crate::lanes::Lanes;
 use crate::planted::planted;
 use crate::problem::Proposal;
-use crate::sampling::Choice;
+use crate::sampling::Discrete;
 use rand_core::Rng;
 
 /// Chooses a channel k with probability p_k, then X ~ g_k. A point is (k, X), its pdf p_k·g_k(X).
@@ -16,12 +16,12 @@ use rand_core::Rng;
 ///
 /// ```
 /// use rand_core::SeedableRng;
-/// use ratiocv_core::sampling::{Choice, PiecewiseConstant, RandomMixture, in_channel};
+/// use ratiocv_core::sampling::{Discrete, PiecewiseConstant, RandomMixture, in_channel};
 /// use ratiocv_core::{Plain, Problem, Spectrum};
 /// let f = |channel: usize, x: f64| [6.0 * x * x, 1.0 - x][channel];
 /// let g = [PiecewiseConstant::new(&[1.0, 3.0])?, PiecewiseConstant::new(&[3.0, 1.0])?];
 /// let problem = Problem::new(|(k, x): &(usize, f64)| in_channel::<Spectrum<f64, 2>>(*k, f(*k, *x)))
-///     .proposal(RandomMixture::new(Choice::new(&[2.0, 0.5])?, g));
+///     .proposal(RandomMixture::new(Discrete::new(&[2.0, 0.5])?, g));
 /// let estimate = problem.integrate(&Plain, 1000, &mut rand_pcg::Pcg64::seed_from_u64(1))?;
 /// assert!((estimate.value[0] - 2.0).abs() < 5.0 * estimate.std_error[0]);
 /// assert!((estimate.value[1] - 0.5).abs() < 5.0 * estimate.std_error[1]);
@@ -29,13 +29,13 @@ use rand_core::Rng;
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct RandomMixture<P, const K: usize> {
-    choice: Choice<K>,
+    choice: Discrete<K>,
     proposals: [P; K],
 }
 
 impl<P, const K: usize> RandomMixture<P, K> {
     /// Channel k is chosen by `choice`, and then a point by `proposals[k]`.
-    pub const fn new(choice: Choice<K>, proposals: [P; K]) -> Self {
+    pub const fn new(choice: Discrete<K>, proposals: [P; K]) -> Self {
         Self { choice, proposals }
     }
 }

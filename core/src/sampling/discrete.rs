@@ -23,19 +23,19 @@ pub(super) const PARTS: f64 = (1_u64 << 53) as f64;
 /// (`tests/importance_sampling/lemmas.rs`).
 ///
 /// ```
-/// use ratiocv_core::{sampling::Choice, Proposal, Spectrum};
+/// use ratiocv_core::{sampling::Discrete, Proposal, Spectrum};
 /// let lights = [Spectrum([10.0_f32, 0.0, 0.0]), Spectrum([0.0, 15.0, 20.0]), Spectrum([0.0, 3.0, 4.0])];
-/// let choice = Choice::by_norm(&lights)?;
+/// let choice = Discrete::by_norm(&lights)?;
 /// assert_eq!([0, 1, 2, 3].map(|light| choice.pdf(&light)), [0.25, 0.625, 0.125, 0.0]);
 /// # Ok::<(), ratiocv_core::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Choice<const B: usize> {
+pub struct Discrete<const B: usize> {
     /// The probability of an index up to and including this one.
     cumulative: [f64; B],
 }
 
-impl<const B: usize> Choice<B> {
+impl<const B: usize> Discrete<B> {
     /// With probabilities proportional to `weights`.
     ///
     /// # Errors
@@ -73,7 +73,7 @@ impl<const B: usize> Choice<B> {
     }
 }
 
-impl<const B: usize> Proposal for Choice<B> {
+impl<const B: usize> Proposal for Discrete<B> {
     type Point = usize;
     #[inline]
     fn sample<R: Rng + ?Sized>(&self, rng: &mut R) -> usize {
@@ -93,7 +93,7 @@ mod tests {
     use super::*;
 
     fn probabilities<const B: usize>(weights: [f64; B]) -> [f64; B] {
-        let choice = Choice::new(&weights).unwrap();
+        let choice = Discrete::new(&weights).unwrap();
         core::array::from_fn(|index| choice.pdf(&index))
     }
 
@@ -121,7 +121,7 @@ mod tests {
 
     #[test]
     fn bad_tables_name_the_entry() {
-        let error = |weights: [f64; 3]| Choice::new(&weights).unwrap_err();
+        let error = |weights: [f64; 3]| Discrete::new(&weights).unwrap_err();
         assert_eq!(error([0.0, 0.0, -0.0]), Error::TableOfZeros { what: "weight" });
         assert_eq!(error([1.0, -2.0, 3.0]), Error::TableEntry { what: "weight", index: 1, value: -2.0 });
         assert_eq!(
@@ -129,7 +129,7 @@ mod tests {
             Error::TableEntry { what: "weight", index: 2, value: f64::INFINITY }
         );
         assert!(matches!(error([f64::NAN, 2.0, 1.0]), Error::TableEntry { index: 0, .. }));
-        assert_eq!(Choice::<0>::new(&[]).unwrap_err(), Error::TableOfZeros { what: "weight" });
+        assert_eq!(Discrete::<0>::new(&[]).unwrap_err(), Error::TableOfZeros { what: "weight" });
         let message = std::string::ToString::to_string(&error([1.0, -2.0, 3.0]));
         assert_eq!(message, "weight 1 is -2: give a finite number that is not negative");
     }
