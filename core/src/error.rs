@@ -27,6 +27,15 @@ pub enum Error {
     },
     /// A defensive weight outside [0, 1), or NaN.
     Weight(f64),
+    /// A parameter outside its range, or NaN.
+    Parameter {
+        /// Its name.
+        parameter: &'static str,
+        /// Its value.
+        got: f64,
+        /// What it must be, and the remedy.
+        needed: &'static str,
+    },
     /// The ratios f/h were accumulated on an auxiliary other than the one of the estimate.
     OtherAuxiliary {
         /// The estimator's id.
@@ -94,6 +103,7 @@ impl fmt::Display for Error {
                 f,
                 "the defensive weight is {weight} and must be at least 0 and below 1: 0.01 is the usual choice"
             ),
+            Self::Parameter { parameter, got, needed } => write!(f, "{parameter} is {got} and must be {needed}"),
             Self::OtherAuxiliary { estimator, channel } => write!(
                 f,
                 "{estimator}, channel {channel}: the ratios f/h were accumulated for another defensive weight or known \

@@ -63,6 +63,7 @@ pub mod sampling;
 mod scaled;
 mod solve;
 mod spectrum;
+mod stopping;
 
 pub use draw::Draw;
 pub use error::Error;
@@ -80,3 +81,4 @@ pub use problem::{
     Auxiliaries, Auxiliary, Integrand, Problem, Proposal, Uniform, UniformCube, WithIntegral, unit_interval,
 };
 pub use spectrum::Spectrum;
+pub use stopping::{Decision, Stopping};
