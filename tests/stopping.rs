@@ -206,7 +206,7 @@ fn under_peeking<V: Lanes>(rule: &Stopping, seed: u64) -> [Runs; 2] {
             let h = V::from_fn(|_| V::Scalar::from_f64(0.5 + noise.next_unit()));
             let v = V::from_fn(|_| V::Scalar::from_f64(noise.next_unit()));
             moments.add(Draw::new(h * (V::splat(V::Scalar::from_f64(0.2)) + v * v), h));
-            if count < rule.burn_in || count % 8 > 0 {
+            if count < rule.burn_in || count % 16 > 0 {
                 continue;
             }
             let estimates =

@@ -108,15 +108,18 @@ fn c6_an_awkward_constant() {
 #[test]
 fn c7_residuals_at_the_level_of_rounding() {
     let mut noise = Noise(7);
+    let (mut roundoffs, mut negative) = (Vec::new(), 0);
     for _ in 0..10_000 {
         let draws: Vec<(f32, f32)> = (0..64).map(|_| noise.next_unit() as f32 + 0.5).map(|h| (h / 3.0, h)).collect();
         // The definition, in f64.
         let n = 64.0;
         let (f, h) = draws.iter().fold((0.0, 0.0), |m, d| (m.0 + f64::from(d.0) / n, m.1 + f64::from(d.1) / n));
         let right: f64 = draws.iter().map(|d| ((f64::from(d.0) - f) - f / h * (f64::from(d.1) - h)).powi(2)).sum();
+        negative += u32::from(expanded(&draws) < 0.0);
         let moments = moments(draws);
         let spread = moments.channel(0).comoments();
         let ours = spread.about(&[f / h]);
+        roundoffs.push((ours / spread.ff()).sqrt() * 2.0_f64.powi(24));
         // Never negative, and no more than 32 units of the last place of f32 of the spread of f.
         let floor = (32.0 * f64::from(f32::EPSILON)).powi(2) * spread.ff();
         assert!(ours >= 0.0 && ours <= floor, "{ours:e} for {right:e}");
@@ -126,6 +129,23 @@ fn c7_residuals_at_the_level_of_rounding() {
         assert_close(estimate.std_error, (floor / n / (n - 1.0)).sqrt(), 1e-6 * estimate.std_error, "floor");
         assert!(estimate.std_error * estimate.std_error >= right / n / (n - 1.0), "the floor hides an error");
     }
+    roundoffs.sort_by(f64::total_cmp);
+    let [median, high, worst] = [5_000, 9_900, 9_999].map(|rank| roundoffs[rank]);
+    println!("unit roundoffs of the spread of f: median {median:.1}, 99 % {high:.1}, worst {worst:.1}");
+    println!("the expanded formula is below zero in {negative} of 10000 trials");
+    // What the comments say of both (estimator/remarks.rs, moments/comoments.rs).
+    assert!(median <= 3.0 && high <= 25.0 && worst <= 40.0, "{median}, {high}, {worst}");
+    assert!(negative > 2_500, "{negative}");
+}
+
+/// s_ff − 2c·s_fh + c²·s_hh for c = f̄/h̄, in `f32`, of sums about the means.
+fn expanded(draws: &[(f32, f32)]) -> f32 {
+    let (f, h) = draws.iter().fold((0.0, 0.0), |sum, draw| (sum.0 + draw.0, sum.1 + draw.1));
+    let (f, h) = (f / draws.len() as f32, h / draws.len() as f32);
+    let sum = |product: fn(f32, f32) -> f32| draws.iter().map(|draw| product(draw.0 - f, draw.1 - h)).sum::<f32>();
+    let (ff, fh, hh) = (sum(|f, _| f * f), sum(|f, h| f * h), sum(|_, h| h * h));
+    let c = f / h;
+    ff - 2.0 * c * fh + c * c * hh
 }
 
 #[test]
