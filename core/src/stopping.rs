@@ -16,8 +16,9 @@ use crate::planted::planted;
 /// radius = std_error·√((1 + 1/(Nρ²))·(log(1 + Nρ²) − 2 log(α/M)))
 /// ```
 ///
-/// for M channels, and holds at all N at once: with probability 1 − α no channel's F is ever outside,
-/// from the burn-in on. So N may be chosen by looking, by this rule or by any other.
+/// for M channels. It holds at all N at once: with probability 1 − α, as far as is promised below, no
+/// channel's F is ever outside from the burn-in on. So N may be chosen by looking, by this rule or by
+/// any other.
 ///
 /// # Stopping
 /// A channel's target is met when |F̂ − F| ≤ max(`absolute`, `relative`·|F|) for every F in the
@@ -26,28 +27,28 @@ use crate::planted::planted;
 /// Never before the burn-in; never where the error is unknown (NaN: no draw, one draw, all draws
 /// black, overflow, moments of the value tier); never under a flag that says that the error bar cannot
 /// be trusted: NO_SUPPORT, DENOM_ILL, LOW_ESS, HEAVY_TAIL, AUX_MISMATCH. So give loops an upper limit
-/// of draws too. An error of exactly 0 (f ∝ h, or a constant) is met from the burn-in on: whatever
-/// none of the first draws has seen, the rule does not see either.
+/// of draws too. An error of exactly 0 (f ∝ h, or a constant) stops at the burn-in, not before.
 ///
 /// # What is promised
 /// - Exact for increments that are Gaussian with a known variance, from the first draw on: then
 ///   (1 + Nρ²)^(−½)·exp(ρ²S²/(2(1 + Nρ²))), S the sum of N standardised increments, is a martingale
 ///   that starts at 1 and exceeds 1/α with a probability of α at most (Ville 1939; Robbins 1970).
-/// - Asymptotic in the burn-in m for everything else: with independent draws, more than two moments,
-///   an estimated variance and a radius that is tightest at m log m draws, the probability of ever
-///   being wrong from m draws on is at most α in the limit of large m (Waudby-Smith, Arbour, Sinha, Kennedy, Ramdas
-///   2024, *Time-uniform central limit theory and asymptotic confidence sequences*, theorem 2.8); for
-///   any ρ the radius approaches that of an exact sequence (theorem 2.2). To first order every
-///   consistent estimator here is the mean of y − c(x − H), and what is left falls like log log N/N,
-///   faster than the radius.
+/// - Asymptotic in the burn-in m for everything else: for independent draws with more than two
+///   moments, estimated variance, and a radius that is tightest at m log m draws, the probability of
+///   ever being wrong from m draws on is at most α in the limit of large m (Waudby-Smith, Arbour,
+///   Sinha, Kennedy, Ramdas 2024, *Time-uniform central limit theory and asymptotic confidence
+///   sequences*, arXiv 2103.06476, theorem 2.8); for any ρ the radius approaches that of an exact
+///   sequence (their definition 2.1). To first order every estimator here but the mean of ratios is
+///   the mean of y − c(x − H); what is left falls like log log N/N, faster than the radius.
 /// - Together by the union bound, α/M for each of M channels: conservative where channels vary
 ///   together.
 ///
 /// # What is not
-/// Nothing for a small burn-in and skewed draws, nor where Var(y − cx) is infinite. Bias: that of
-/// [`MeanOfRatios`](crate::MeanOfRatios) does not vanish, and its interval is one for its own limit. A
-/// channel that falls back to the plain mean on the way changes from one sequence to another, and may
-/// then be wrong with a probability of up to 2α/M.
+/// - Nothing at a small burn-in with skewed draws, nor where y − cx has no variance. What happens once
+///   in 1/p draws has not been seen at the burn-in m with probability (1 − p)^m.
+/// - The interval of [`MeanOfRatios`](crate::MeanOfRatios) is one for its own limit, which is not F.
+/// - A channel that falls back to the plain mean on the way changes from one sequence to another, and
+///   may be wrong with a probability of up to 2α/M.
 ///
 /// ```
 /// use ratiocv_core::{moments::{Accumulate, Comoments}, Draw, Estimator, Integrals, RatioOfMeans, Stopping};
