@@ -7,8 +7,8 @@ use core::marker::PhantomData;
 /// Draws in a full block.
 ///
 /// 64 draws keep `f32` sums short enough for an error of a few units in the last place, and make
-/// closing and merging a block cheap beside its draws (for co-moments some 70 operations per channel
-/// beside 64·12).
+/// closing and merging a block cheap beside its draws: for co-moments with one auxiliary about a tenth
+/// of the operations.
 pub const BLOCK: usize = 64;
 
 /// The first draws of a stream each make a block of their own, so that they reach the `f64` state
