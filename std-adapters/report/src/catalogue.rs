@@ -1,5 +1,6 @@
 //! Every estimator by its id: what names in files, pages and on the command line stand for.
 
+use crate::Group;
 use ratiocv_core::moments::{
     Blocked, ComomentsBlock, ExtremesBlock, GroupsBlock, HasComoments, HasGroups, HasRatioMean, Joined, Moments,
     RatioOf, RatioVariance, ThirdBlock, UnivariateBlock,
@@ -140,6 +141,15 @@ impl Method {
     /// Whether it works on the defensive auxiliary.
     pub fn is_defensive(self) -> bool {
         self.defensive
+    }
+
+    /// Its kind.
+    pub fn group(self) -> Group {
+        match self.rule {
+            Rule::Plain => Group::Plain,
+            Rule::RatioOfMeans | Rule::Quenouille | Rule::Beale | Rule::Tin | Rule::MeanOfRatios => Group::Ratio,
+            Rule::HartleyRoss | Rule::Mickey => Group::Unbiased,
+        }
     }
 
     /// Whether its expectation is F for every number of draws.

@@ -30,6 +30,9 @@
 //! | `bias`, `bias_std_error` | mean of F̂/F − 1 |
 //! | `mse`, `mse_std_error` | mean of (F̂/F − 1)² |
 //! | `predicted_bias`, `predicted_mse` | to second order in 1/N; empty where theory says nothing |
+//! | `coverage`, `coverage_std_error` | share of the intervals value ± 1.96 std_error that contain F, after 16, 64 and 256 draws |
+//! | `without_interval`, `flagged` | shares of the estimates of unknown error, and of those with any flag |
+//! | `missed_flagged` | share of the intervals that miss F with any flag |
 //! | `seconds_median`, `seconds_lower_quartile`, `seconds_upper_quartile` | of one estimate, sampling included |
 //! | `seed`, `version`, `cpu`, `compiler` | where it comes from |
 //!
@@ -42,16 +45,19 @@
 //!   `slope_in_time`, `theory_agrees`, `theory_deviation` (in standard errors), and `points`;
 //! - each of `points`: `draws`, `replicates`, `seconds` (`median`, `lower_quartile`, `upper_quartile`), `all`
 //!   and `channels`, which hold `bias`, `bias_std_error`, `mse`, `mse_std_error`, `predicted` and
-//!   `predicted_first_order` (`bias`, `mse`). What is not a number is null.
+//!   `predicted_first_order` (`bias`, `mse`), and `coverage` (`share`, `std_error`, `without_interval`,
+//!   `flagged`, `missed_flagged`), null but after 16, 64 and 256 draws. What is not a number is null.
 
 pub mod catalogue;
+mod group;
 mod measure;
 mod output;
 pub mod problems;
 mod provenance;
 
+pub use group::Group;
 pub use measure::{
-    ChannelPoint, Equal, Error, Figures, MethodReport, Options, Point, ProblemReport, Progress, Report, Seconds,
-    Theory, Versus, run,
+    ChannelPoint, Coverage, Equal, Error, Figures, MethodReport, Options, Point, ProblemReport, Progress, Report,
+    Seconds, Theory, Versus, run,
 };
 pub use provenance::Provenance;

@@ -162,6 +162,7 @@ mod tests {
                     first_order: unknown,
                 },
                 channels: vec![],
+                coverage: None,
                 seconds: Seconds { median: seconds, lower: seconds, upper: seconds },
             }
         };

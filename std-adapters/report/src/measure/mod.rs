@@ -2,6 +2,7 @@
 
 mod clock;
 mod compare;
+mod coverage;
 mod options;
 mod plan;
 mod progress;
@@ -12,6 +13,7 @@ mod tally;
 mod theory;
 
 pub use compare::{Equal, Versus};
+pub use coverage::Coverage;
 pub use options::{Error, Options};
 pub use progress::Progress;
 pub use report::{ChannelPoint, Figures, MethodReport, Point, ProblemReport, Report, Seconds, Theory};

@@ -1,6 +1,7 @@
 //! How many replicates of each size a budget buys.
 
 use crate::measure::Options;
+use crate::measure::coverage::is_judged;
 
 /// A number of draws, and how often an estimate of so many is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,6 +12,8 @@ pub(super) struct Size {
     pub(super) replicates: u64,
     /// Estimates in a chunk of work.
     pub(super) chunk: u64,
+    /// Whether their intervals are judged.
+    pub(super) judged: bool,
     /// Measurements of the run time, and estimates in each.
     pub(super) rounds: usize,
     /// Estimates in one measurement of the run time.
@@ -57,6 +60,7 @@ pub(super) fn plan(options: &Options, channels: usize, problems: usize) -> Vec<S
         Size {
             draws,
             replicates: (share / cost).clamp(LEAST, MOST) as u64,
+            judged: is_judged(draws),
             chunk: (CHUNK_NANOSECONDS / cost).max(1.0) as u64,
             rounds: if options.quick { 5 } else { 11 },
             repeats: (INTERVAL_NANOSECONDS / estimate_nanoseconds(draws, channels)).max(1.0) as u64,

@@ -5,6 +5,7 @@ use crate::measure::plan::Size;
 use crate::measure::tally::Tally;
 use crate::problems::{Solved, Source};
 use rand_core::Rng;
+use ratiocv_core::moments::ExtremesBlock;
 use ratiocv_core::{Error, Lanes};
 use ratiocv_threads::{map_chunks, stream};
 
@@ -32,7 +33,7 @@ pub(super) fn replicates<S: Solved>(
 ) -> Result<Vec<Tally>, Error> {
     let (source, exact) = (problem.source(), problem.exact());
     let integrals = source.integrals();
-    let empty: Everything<S::Value> = everything::<S::Value, (), ()>(weight, &integrals)?;
+    let empty: Everything<S::Value, ExtremesBlock<S::Value>> = everything::<_, _, ()>(weight, &integrals)?;
     let seed = cell_seed(seed, S::DESCRIPTION.id, size.draws);
     let none = || vec![Tally::new(S::Value::LANES); methods.len()];
     let parts = map_chunks(size.replicates, size.chunk, |chunk| {
@@ -41,7 +42,11 @@ pub(super) fn replicates<S: Solved>(
             let mut moments = empty;
             source.accumulate(&mut moments, size.draws, &mut stream(seed, replicate));
             for (tally, method) in tallies.iter_mut().zip(methods) {
-                tally.add(&method.estimate(weight, &moments, &integrals).value, &exact);
+                let estimate = method.estimate(weight, &moments, &integrals);
+                tally.add(&estimate.value, &exact);
+                if size.judged {
+                    tally.judge(|channel| (estimate.channel(channel), exact.get(channel)));
+                }
             }
         }
         tallies

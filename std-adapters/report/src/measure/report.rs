@@ -1,7 +1,7 @@
 //! What a run found out.
 
 use crate::catalogue::Method;
-use crate::measure::Equal;
+use crate::measure::{Coverage, Equal};
 use crate::problems::Problem;
 use crate::provenance::Provenance;
 use ratiocv_core::predict::Prediction;
@@ -50,8 +50,21 @@ pub struct Point {
     pub relative: Figures,
     /// The same for each channel.
     pub channels: Vec<ChannelPoint>,
+    /// Of intervals, all channels together; only after 16, 64 and 256 draws.
+    pub coverage: Option<Coverage>,
     /// Of one estimate, sampling included.
     pub seconds: Seconds,
+}
+
+impl Point {
+    /// The channel, by its place, whose intervals contain F least often; the first of several. A channel
+    /// without intervals comes before all others.
+    pub fn worst_coverage(&self) -> Option<(usize, Coverage)> {
+        let share = |coverage: &Coverage| if coverage.share.is_nan() { -1.0 } else { coverage.share };
+        let channels = self.channels.iter().enumerate();
+        let judged = channels.filter_map(|(index, channel)| Some((index, channel.coverage?)));
+        judged.min_by(|(_, a), (_, b)| share(a).total_cmp(&share(b)))
+    }
 }
 
 /// One channel of a [`Point`], in units of its F.
@@ -59,6 +72,8 @@ pub struct Point {
 pub struct ChannelPoint {
     /// Measured and predicted.
     pub relative: Figures,
+    /// Of this channel's intervals, as [`Point::coverage`].
+    pub coverage: Option<Coverage>,
 }
 
 /// Bias and MSE, measured and predicted.

@@ -96,14 +96,19 @@ impl Visitor for Measure<'_> {
             let seconds = clock(problem, &methods, weight, *size, options.seed);
             for (index, method) in methods.iter().enumerate() {
                 let predicted = predictions(*method, weight, &populations, draws);
-                let channels = tallies[index].channels(count).zip(&predicted);
+                let tally = &tallies[index];
+                let channels = tally.channels(count).zip(&predicted).zip(tally.coverages());
                 points[index].push(Point {
                     draws,
                     replicates: count,
-                    relative: figures(tallies[index].all(count), mean(&predicted)),
+                    relative: figures(tally.all(count), mean(&predicted)),
                     channels: channels
-                        .map(|(measured, predicted)| ChannelPoint { relative: figures(measured, *predicted) })
+                        .map(|((measured, predicted), coverage)| ChannelPoint {
+                            relative: figures(measured, *predicted),
+                            coverage,
+                        })
                         .collect(),
+                    coverage: tally.coverage(),
                     seconds: seconds[index],
                 });
             }

@@ -1,6 +1,8 @@
 //! Sums of errors over replicates.
 
-use ratiocv_core::Lanes;
+use crate::measure::Coverage;
+use crate::measure::coverage::{Counts, Hits};
+use ratiocv_core::{ChannelEstimate, Lanes};
 
 /// Mean of a number and the standard error of that mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,11 +37,12 @@ impl Sum {
     }
 }
 
-/// Error and squared error, in units of F.
+/// Error and squared error, in units of F, and how intervals did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Errors {
     bias: Sum,
     mse: Sum,
+    hits: Hits,
 }
 
 /// The errors of one estimator: of each channel, and of their mean.
@@ -70,6 +73,18 @@ impl Tally {
         self.all.mse.add(squares / channels);
     }
 
+    /// The intervals of one estimate: `channel` gives that of a channel, and what it is an estimate of.
+    pub(super) fn judge(&mut self, channel: impl Fn(usize) -> (ChannelEstimate, f64)) {
+        let mut counts = Counts::default();
+        for (index, tally) in self.channels.iter_mut().enumerate() {
+            let (estimate, exact) = channel(index);
+            let of_channel = Counts::of(estimate, exact);
+            tally.hits.add(of_channel);
+            counts.append(&of_channel);
+        }
+        self.all.hits.add(counts);
+    }
+
     pub(super) fn append(&mut self, later: &Self) {
         for (mine, theirs) in self.channels.iter_mut().zip(&later.channels) {
             mine.append(theirs);
@@ -86,12 +101,23 @@ impl Tally {
     pub(super) fn channels(&self, count: u64) -> impl Iterator<Item = (Average, Average)> {
         self.channels.iter().map(move |errors| errors.averages(count))
     }
+
+    /// Of all channels together; `None` if intervals were not judged.
+    pub(super) fn coverage(&self) -> Option<Coverage> {
+        self.all.hits.coverage()
+    }
+
+    /// Of each channel.
+    pub(super) fn coverages(&self) -> impl Iterator<Item = Option<Coverage>> {
+        self.channels.iter().map(|errors| errors.hits.coverage())
+    }
 }
 
 impl Errors {
     fn append(&mut self, later: &Self) {
         self.bias.append(&later.bias);
         self.mse.append(&later.mse);
+        self.hits.append(&later.hits);
     }
 
     fn averages(&self, count: u64) -> (Average, Average) {

@@ -1,9 +1,9 @@
 //! `report.csv`.
 
-use crate::{Figures, Report};
+use crate::{Coverage, Figures, Report};
 use std::io;
 
-const HEADER: [&str; 18] = [
+const HEADER: [&str; 23] = [
     "problem",
     "estimator",
     "draws",
@@ -15,6 +15,11 @@ const HEADER: [&str; 18] = [
     "mse_std_error",
     "predicted_bias",
     "predicted_mse",
+    "coverage",
+    "coverage_std_error",
+    "without_interval",
+    "flagged",
+    "missed_flagged",
     "seconds_median",
     "seconds_lower_quartile",
     "seconds_upper_quartile",
@@ -32,10 +37,12 @@ pub(super) fn csv(report: &Report) -> io::Result<String> {
         let channels = problem.problem.channels();
         for method in &problem.methods {
             for point in &method.points {
-                let all = core::iter::once(("all", &point.relative));
+                let all = core::iter::once(("all", (&point.relative, point.coverage)));
                 // The one channel of a scalar problem is the mean over channels.
-                let each = channels.iter().zip(&point.channels).filter(|(name, _)| !name.is_empty());
-                for (channel, figures) in all.chain(each.map(|(name, channel)| (name.as_str(), &channel.relative))) {
+                let each =
+                    channels.iter().map(String::as_str).zip(&point.channels).filter(|(name, _)| !name.is_empty());
+                let each = each.map(|(name, channel)| (name, (&channel.relative, channel.coverage)));
+                for (channel, (figures, coverage)) in all.chain(each) {
                     let mut row = vec![
                         problem.problem.id().into(),
                         method.method.id().into(),
@@ -45,6 +52,7 @@ pub(super) fn csv(report: &Report) -> io::Result<String> {
                     ];
                     let seconds = point.seconds;
                     row.extend(columns(figures).map(number));
+                    row.extend(shares(coverage).map(number));
                     row.extend([seconds.median, seconds.lower, seconds.upper].map(number));
                     row.extend([
                         report.provenance.seed.to_string(),
@@ -64,6 +72,14 @@ pub(super) fn csv(report: &Report) -> io::Result<String> {
 fn columns(figures: &Figures) -> [f64; 6] {
     let Figures { bias, bias_std_error, mse, mse_std_error, predicted, .. } = *figures;
     [bias, bias_std_error, mse, mse_std_error, predicted.bias, predicted.mse]
+}
+
+/// Nothing where intervals were not judged.
+fn shares(coverage: Option<Coverage>) -> [f64; 5] {
+    let shares = |Coverage { share, std_error, without, flagged, missed_flagged }| {
+        [share, std_error, without, flagged, missed_flagged]
+    };
+    coverage.map_or([f64::NAN; 5], shares)
 }
 
 /// Shortest digits that read back as the same number; nothing for what is not one.

@@ -1,6 +1,6 @@
 //! `report.json`.
 
-use crate::{Figures, MethodReport, Point, ProblemReport, Provenance, Report, Seconds, Versus};
+use crate::{Coverage, Figures, MethodReport, Point, ProblemReport, Provenance, Report, Seconds, Versus};
 use ratiocv_core::predict::Prediction;
 use serde::Serialize;
 use std::io;
@@ -72,6 +72,16 @@ struct OfFigures {
     mse_std_error: f64,
     predicted: OfPrediction,
     predicted_first_order: OfPrediction,
+    coverage: Option<OfCoverage>,
+}
+
+#[derive(Serialize)]
+struct OfCoverage {
+    share: f64,
+    std_error: f64,
+    without_interval: f64,
+    flagged: f64,
+    missed_flagged: f64,
 }
 
 #[derive(Serialize)]
@@ -131,12 +141,12 @@ fn point(point: &Point) -> OfPoint {
         draws: point.draws,
         replicates: point.replicates,
         seconds: OfSeconds { median, lower_quartile: lower, upper_quartile: upper },
-        all: figures(&point.relative),
-        channels: point.channels.iter().map(|channel| figures(&channel.relative)).collect(),
+        all: figures(&point.relative, point.coverage),
+        channels: point.channels.iter().map(|channel| figures(&channel.relative, channel.coverage)).collect(),
     }
 }
 
-fn figures(figures: &Figures) -> OfFigures {
+fn figures(figures: &Figures, coverage: Option<Coverage>) -> OfFigures {
     let prediction = |Prediction { bias, mse }| OfPrediction { bias, mse };
     OfFigures {
         bias: figures.bias,
@@ -145,5 +155,11 @@ fn figures(figures: &Figures) -> OfFigures {
         mse_std_error: figures.mse_std_error,
         predicted: prediction(figures.predicted),
         predicted_first_order: prediction(figures.first_order),
+        coverage: coverage.map(shares),
     }
+}
+
+fn shares(coverage: Coverage) -> OfCoverage {
+    let Coverage { share, std_error, without, flagged, missed_flagged } = coverage;
+    OfCoverage { share, std_error, without_interval: without, flagged, missed_flagged }
 }
