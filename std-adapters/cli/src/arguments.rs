@@ -94,6 +94,9 @@ pub struct ReportArguments {
     /// About how long two cores may measure, in seconds; decides how many replicates there are
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub budget: Option<f64>,
+    /// Print every estimator; else plain Monte Carlo and the best of each kind, or those of --estimator
+    #[arg(long)]
+    pub all: bool,
     /// Directory for index.html, report.json and report.csv
     #[arg(long, value_name = "DIR", default_value = "report")]
     pub out: PathBuf,

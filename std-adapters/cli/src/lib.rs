@@ -17,5 +17,6 @@ pub mod output;
 pub mod progress;
 pub mod report;
 pub mod rows;
+pub mod style;
 pub mod verdict;
 pub mod words;

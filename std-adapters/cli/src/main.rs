@@ -2,17 +2,18 @@
 
 use clap::Parser;
 use ratiocv_cli::arguments::{Arguments, Command};
-use ratiocv_cli::{estimate, list, report};
-use std::io::{BufWriter, Write, stderr, stdout};
+use ratiocv_cli::{estimate, list, report, style};
+use std::io::{BufWriter, IsTerminal, Write, stderr, stdout};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let Arguments { command, report } = Arguments::parse();
+    let bold = style::is_wanted(stdout().is_terminal(), std::env::var_os("NO_COLOR").as_deref());
     let mut out = BufWriter::new(stdout().lock());
     let mut notes = stderr();
     let done = match command {
-        None => report::run(&report, &mut out),
-        Some(Command::Report(report)) => report::run(&report, &mut out),
+        None => report::run(&report, bold, &mut out),
+        Some(Command::Report(report)) => report::run(&report, bold, &mut out),
         Some(Command::List) => list::run(&mut out),
         Some(Command::Estimate(arguments)) => estimate::run(&arguments, &mut out, &mut notes),
     };

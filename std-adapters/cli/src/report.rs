@@ -3,15 +3,15 @@
 use crate::arguments::ReportArguments;
 use crate::fault::Fault;
 use crate::progress::OfMeasuring;
-use ratiocv_report::{Options, run as measure};
+use ratiocv_report::{Options, TableOptions, run as measure};
 use std::fs;
 use std::io::Write;
 
-/// Runs the command: the table and the names of the files to `out`.
+/// Runs the command: the table and the names of the files to `out`, the best estimators in bold if `bold`.
 ///
 /// # Errors
 /// Options that cannot be met, and files that cannot be written.
-pub fn run(arguments: &ReportArguments, out: &mut dyn Write) -> Result<(), Fault> {
+pub fn run(arguments: &ReportArguments, bold: bool, out: &mut dyn Write) -> Result<(), Fault> {
     let cannot_write = |error: std::io::Error| {
         let what = format!("cannot write to {}: {error}", arguments.out.display());
         Fault::data(what, "give a directory that may be written to with --out DIR")
@@ -23,7 +23,9 @@ pub fn run(arguments: &ReportArguments, out: &mut dyn Write) -> Result<(), Fault
     progress.finish();
     let report = measured.map_err(|error| Fault::data(error.to_string(), "see ratiocv report --help"))?;
     let files = report.write(&arguments.out).map_err(cannot_write)?;
-    write!(out, "{}", report.table())?;
+    // Estimators that were asked for are shown, good or bad.
+    let all = arguments.all || !arguments.estimators.is_empty();
+    write!(out, "{}", report.table(TableOptions { all, bold }))?;
     for file in files {
         writeln!(out, "wrote {}", file.display())?;
     }

@@ -6,10 +6,10 @@
 //! that plain takes, and what time it takes to reach plain's error.
 //!
 //! ```no_run
-//! use ratiocv_report::{Options, problems::Problem, run};
+//! use ratiocv_report::{Options, TableOptions, problems::Problem, run};
 //! let options = Options { problems: Problem::from_id("three-lights").into_iter().collect(), ..Options::default() };
 //! let report = run(&options, &())?;
-//! print!("{}", report.table());
+//! print!("{}", report.table(TableOptions::default()));
 //! report.write("report".as_ref())?; // report.json, report.csv, index.html
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -60,4 +60,5 @@ pub use measure::{
     ChannelPoint, Coverage, Equal, Error, Figures, MethodReport, Options, Point, ProblemReport, Progress, Report,
     Seconds, Theory, Versus, run,
 };
+pub use output::TableOptions;
 pub use provenance::Provenance;

@@ -70,3 +70,28 @@ fn a_report_that_cannot_be_written_is_not_measured() {
     fails_with(&run, 1, &["error: cannot write to", "occupied", "--out DIR"]);
     assert!(start.elapsed().as_secs() < 5);
 }
+
+#[test]
+fn a_report_lists_the_best_unless_all_or_some_are_asked_for() {
+    let dir = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("listed");
+    let out = dir.to_str().expect("a path");
+    let listed = |options: &[&str]| {
+        let common = ["report", "--quick", "--problem", "well-correlated", "--budget", "0.05", "--out", out];
+        let run = ratiocv(&[&common[..], options].concat(), "");
+        assert_eq!((run.code, run.err.as_str()), (0, ""));
+        assert!(!run.out.contains('\u{1b}'), "no styles in a pipe");
+        let id = |line: &str| line.split_whitespace().next().and_then(Method::from_id);
+        run.out.lines().filter_map(id).collect::<Vec<_>>()
+    };
+    let short = listed(&[]);
+    assert!(short[0] == Method::PLAIN && short.len() < 8, "{short:?}");
+    let mut all = listed(&["--all"]);
+    all.sort();
+    let mut expected: Vec<_> = Method::all().collect();
+    expected.sort();
+    assert_eq!(all, expected);
+    let asked = listed(&["--estimator", "mean_of_ratios", "--estimator", "tin", "--estimator", "beale"]);
+    assert_eq!(asked.iter().map(|method| method.id()).collect::<Vec<_>>(), ["mc", "beale", "tin", "mean_of_ratios"]);
+    assert!(ratiocv(&["report", "--help"], "").out.contains("--all"));
+    std::fs::remove_dir_all(&dir).expect("the directory was made");
+}

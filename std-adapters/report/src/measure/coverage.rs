@@ -33,10 +33,10 @@ pub struct Coverage {
 }
 
 impl Coverage {
-    /// Whether fewer than 90 % of the intervals contain F, or there are none.
+    /// Whether fewer than 90 % of the intervals contain F, or fewer than 90 % of the estimates have one.
     pub fn is_poor(&self) -> bool {
-        // NaN is poor.
-        !(self.share >= 0.9)
+        // No interval at all is poor: NaN must not pass.
+        !(self.share >= 0.9 && self.without <= 0.1)
     }
 }
 
@@ -175,6 +175,7 @@ mod tests {
         // √(p(1 − p)/n) of four intervals.
         assert!((coverage.std_error - libm::sqrt(0.75 * 0.25 / 4.0)).abs() <= 1e-15);
         assert!(coverage.is_poor() && !of_channel(&[hit]).is_poor());
+        assert!(of_channel(&[hit, (-10.0, f64::NAN, none)]).is_poor());
         let missed = of_channel(&[(-13.0, 1.0, low), (-7.0, 1.0, none), (-6.0, 1.0, none), hit]);
         assert!((missed.missed_flagged - 1.0 / 3.0).abs() <= 1e-15);
     }

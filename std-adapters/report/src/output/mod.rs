@@ -1,11 +1,17 @@
 //! A report as text, files and a page.
 
+mod coverage;
 mod csv;
+mod headings;
 mod json;
 mod page;
 mod plots;
+mod poor;
+mod selection;
 mod summary;
 mod table;
+#[cfg(test)]
+mod tests;
 mod words;
 
 use crate::Report;
@@ -13,10 +19,12 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+pub use table::TableOptions;
+
 impl Report {
-    /// For a terminal: a summary, then one table per problem, at most 110 columns wide.
-    pub fn table(&self) -> String {
-        table::table(self)
+    /// For a terminal: a summary, one table per problem, and where error bars are poor, at most 110 columns wide.
+    pub fn table(&self, options: TableOptions) -> String {
+        table::table(self, options)
     }
 
     /// Writes `report.json`, `report.csv` and `index.html` into `dir`, which is made if need be, and returns

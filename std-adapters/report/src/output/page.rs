@@ -1,9 +1,12 @@
 //! `index.html`: one file, nothing loaded from elsewhere.
 
+use crate::output::coverage::coverage;
+use crate::output::headings::headings;
 use crate::output::plots::{bias, error, functions, functions_legend, look, swatch, theory};
+use crate::output::selection::{grouped, leaders};
 use crate::output::summary::summary;
 use crate::output::words::versus;
-use crate::{ProblemReport, Report};
+use crate::{MethodReport, ProblemReport, Report};
 use core::fmt::Write;
 
 const STYLE: &str = include_str!("page.css");
@@ -27,6 +30,7 @@ pub(super) fn page(report: &Report) -> String {
     // Writing to a String cannot fail.
     let _ = write!(page, "<h2>Which estimator, for the same run time?</h2>\n{}", verdicts(report));
     let _ = write!(page, "<h2>Error at equal time</h2>\n{}", equal_times(report));
+    coverage(&mut page, report);
     let errors = |problem: &ProblemReport| error(problem, &ERRORS);
     let intro = "Left and low is good. Black dashes are plain Monte Carlo; a curve below it is a gain. Each mark \
                  doubles the number of draws, from 2. Bands are ±2 standard errors. A curve that levels off has a bias \
@@ -99,27 +103,29 @@ fn verdicts(report: &Report) -> String {
 /// Rows of problems, columns of estimators.
 fn equal_times(report: &Report) -> String {
     let Some(first) = report.problems.first() else { return String::new() };
-    let names: String =
-        first.methods.iter().map(|method| format!("<th>{}</th>", method.method.id().replace('_', "<br>"))).collect();
     let mut rows = String::new();
     for problem in &report.problems {
-        let ratios = || problem.methods.iter().map(|method| method.equal.error_at_equal_time);
-        let best = summary(problem).map_or(f64::NAN, |line| line.best.equal.error_at_equal_time.ratio());
-        let cell = |cell: crate::Versus| {
-            let class = match cell.ratio() {
-                ratio if ratio == best => " class=\"best\"",
-                ratio if ratio > 1.05 => " class=\"worse\"",
-                _ => "",
+        let cells: String = grouped(problem).into_iter().map(cell).collect();
+        let leaders = leaders(problem.methods.iter());
+        let cell = |method: &MethodReport| {
+            let error = method.equal.error_at_equal_time;
+            let class = match leaders.iter().position(|leader| leader.method == method.method) {
+                Some(0) => " class=\"best\"",
+                Some(_) => " class=\"tied\"",
+                None if error.ratio() > 1.05 => " class=\"worse\"",
+                None => "",
             };
-            format!("<td{class}>{}</td>", versus(cell))
+            format!("<td{class}>{}</td>", versus(error))
         };
-        let _ = writeln!(rows, "<tr><th>{}</th>{}</tr>", problem.problem.id(), ratios().map(cell).collect::<String>());
+        let _ = writeln!(rows, "<tr><th class=\"stick\">{}</th>{cells}</tr>", problem.problem.id());
     }
     format!(
         "<p>RMSE as a multiple of plain Monte Carlo's, when each estimator gets the time that plain takes for {} draws. \
-         Below 1 is a gain; the least of each row is marked (the mean of ratios is out of the running: its bias stays).</p>\n\
-         <div class=\"scroll\"><table class=\"wide\">\n<thead><tr><th>problem</th>{names}</tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n",
-        first.reference_draws
+         Below 1 is a gain. The least of each row is marked, and what noise cannot tell from it; the simplest of these \
+         is in bold (the mean of ratios is out of the running: its bias stays).</p>\n\
+         <div class=\"scroll\"><table class=\"wide\">\n<thead>{}</thead>\n<tbody>\n{rows}</tbody></table></div>\n",
+        first.reference_draws,
+        headings(&grouped(first), &[]),
     )
 }
 

@@ -1,13 +1,14 @@
 //! What the numbers say, problem by problem.
 
+use crate::output::selection::leaders;
 use crate::output::words;
 use crate::{MethodReport, ProblemReport, Versus};
 
 /// One problem in one line.
 pub(super) struct Summary<'a> {
-    /// The consistent estimator with the least error at equal time.
+    /// The simplest of those with the least error at equal time.
     pub(super) best: &'a MethodReport,
-    /// How many others cannot be told from it: within two standard errors.
+    /// How many others have an error that cannot be told from the least.
     pub(super) ties: usize,
     /// Estimators whose measured MSE theory does not expect.
     pub(super) dissenters: Vec<&'static str>,
@@ -17,22 +18,12 @@ pub(super) struct Summary<'a> {
 
 /// One problem in one line; `None` where nothing was measured.
 pub(super) fn summary(problem: &ProblemReport) -> Option<Summary<'_>> {
-    let error = |method: &MethodReport| method.equal.error_at_equal_time;
-    let better = |a: &&MethodReport, b: &&MethodReport| error(a).ratio().total_cmp(&error(b).ratio());
-    // What does not converge is nobody's best, however well it does with few draws.
-    let candidates = || problem.methods.iter().filter(|method| method.method.is_consistent());
-    let best = candidates().min_by(better)?;
-    let tied = |other: &&MethodReport| match (error(best), error(other)) {
-        (Versus::Exact, Versus::Exact) => true,
-        (Versus::Times { ratio, std_error }, Versus::Times { ratio: other, std_error: their_error }) => {
-            other - ratio <= 2.0 * libm::hypot(std_error, their_error)
-        }
-        _ => false,
-    };
+    let leaders = leaders(problem.methods.iter());
+    let best = leaders.first().copied()?;
     let dissenters = problem.methods.iter().filter(|method| !method.theory.agrees);
     Some(Summary {
         best,
-        ties: candidates().filter(tied).count().saturating_sub(1),
+        ties: leaders.len() - 1,
         dissenters: dissenters.map(|method| method.method.id()).collect(),
         methods: problem.methods.len(),
     })

@@ -27,6 +27,18 @@ pub(super) fn versus(versus: Versus) -> String {
     }
 }
 
+/// In %, with so many digits after the point; "–" for what is not a number.
+pub(super) fn percent(share: f64, digits: usize) -> String {
+    if share.is_finite() { format!("{:.digits$}", 100.0 * share) } else { "–".into() }
+}
+
+/// In %, from the least to the largest, likewise: "31", "31–40". What is not a number is passed over; "–" if all is.
+pub(super) fn percents(shares: impl Iterator<Item = f64> + Clone, digits: usize) -> String {
+    let least = shares.clone().fold(f64::NAN, f64::min);
+    let (from, to) = (percent(least, digits), percent(shares.fold(f64::NAN, f64::max), digits));
+    if from == to { from } else { format!("{from}–{to}") }
+}
+
 /// "12 ns", "3.4 µs", "1.2 ms".
 pub(super) fn time(seconds: f64) -> String {
     let (scaled, unit) = match seconds {
@@ -60,6 +72,9 @@ mod tests {
     fn numbers_keep_three_digits_and_units_fit() {
         assert_eq!([0.41234, 12.34, 0.01234, 1234.5].map(short), ["0.41", "12.3", "0.0123", "1234"]);
         assert_eq!([3.2e-8, 3.42e-6, 0.012].map(time), ["32 ns", "3.4 µs", "12 ms"]);
+        assert_eq!([percent(0.3149, 0), percent(0.3149, 1), percent(f64::NAN, 1)], ["31", "31.5", "–"]);
+        let ranges = [&[0.4, f64::NAN, 0.31][..], &[0.4, 0.401], &[f64::NAN], &[]];
+        assert_eq!(ranges.map(|range| percents(range.iter().copied(), 0)), ["31–40", "40", "–", "–"]);
         assert_eq!([power_of_ten(-13), power_of_ten(4)], ["10⁻¹³", "10⁴"]);
     }
 }
