@@ -105,7 +105,6 @@ fn equal_times(report: &Report) -> String {
     let Some(first) = report.problems.first() else { return String::new() };
     let mut rows = String::new();
     for problem in &report.problems {
-        let cells: String = grouped(problem).into_iter().map(cell).collect();
         let leaders = leaders(problem.methods.iter());
         let cell = |method: &MethodReport| {
             let error = method.equal.error_at_equal_time;
@@ -117,6 +116,7 @@ fn equal_times(report: &Report) -> String {
             };
             format!("<td{class}>{}</td>", versus(error))
         };
+        let cells: String = grouped(problem).into_iter().map(cell).collect();
         let _ = writeln!(rows, "<tr><th class=\"stick\">{}</th>{cells}</tr>", problem.problem.id());
     }
     format!(
