@@ -1,6 +1,12 @@
 //! Estimators by kind.
 
 /// Estimators by kind: what tables set side by side, in their order.
+///
+/// ```
+/// use ratiocv_report::{Group, catalogue::Method};
+/// assert_eq!(Method::from_id("defensive_mickey").map(Method::group), Some(Group::Unbiased));
+/// assert!(Group::Plain < Group::Ratio);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Group {
     /// Plain Monte Carlo.
