@@ -2,19 +2,28 @@
 
 use crate::Group;
 use ratiocv_core::moments::{
-    Blocked, ComomentsBlock, ExtremesBlock, GroupsBlock, HasComoments, HasGroups, HasRatioMean, Joined, Moments,
-    RatioOf, RatioVariance, ThirdBlock, UnivariateBlock,
+    Blocked, ComomentsBlock, ExtremesBlock, FoldsBlock, GroupsBlock, HasComoments, HasFolds, HasGroups, HasRatioMean,
+    Joined, Moments, RatioOf, RatioVariance, ThirdBlock, UnivariateBlock,
 };
 use ratiocv_core::predict::{Order, Population, Predict, Prediction};
 use ratiocv_core::{
-    Beale, Defensive, Error, Estimate, Estimator, HartleyRoss, Integrals, Lanes, MeanOfRatios, Mickey, Plain,
-    Quenouille, RatioOfMeans, Reads, Tin,
+    Beale, Choose, CrossFitted, Defensive, Difference, Error, Estimate, Estimator, HartleyRoss, Integrals, Jackknife,
+    Lanes, MeanOfRatios, Mickey, OptimalDefensive, Plain, Quenouille, RatioOfMeans, Reads, RegressionRatio, Tin,
 };
 
 /// Moments that every estimator of the catalogue can read, so that one pass over the draws serves
-/// all of them: ratios on the raw and on one defensive auxiliary, and eight groups.
-pub type Everything<V, E = (), T = ()> =
-    Blocked<V, Joined<ComomentsBlock<V>, [UnivariateBlock<RatioOf<V>, 1>; 2], GroupsBlock<V, 8>, E, T>>;
+/// all of them: ratios on the raw and on one defensive auxiliary, eight groups, and two folds.
+pub type Everything<V, E = (), T = ()> = Blocked<V, EverythingBlock<V, E, T>>;
+
+/// The kernel of [`Everything`].
+pub type EverythingBlock<V, E, T> = Joined<
+    ComomentsBlock<V>,
+    [UnivariateBlock<RatioOf<V>, 1>; 2],
+    GroupsBlock<V, 8>,
+    E,
+    T,
+    FoldsBlock<ComomentsBlock<V>>,
+>;
 
 /// [`Everything`] with tails, for all flags, and third moments, for second-order predictions.
 pub type Diagnosed<V> = Everything<V, ExtremesBlock<V>, ThirdBlock<V>>;
@@ -34,9 +43,9 @@ where
 }
 
 /// What moments must offer for every estimator to read them.
-pub trait ServesAll: HasComoments + HasRatioMean + HasGroups {}
+pub trait ServesAll: HasComoments + HasRatioMean + HasGroups + HasFolds<Fold: HasComoments> {}
 
-impl<S: HasComoments + HasRatioMean + HasGroups> ServesAll for S {}
+impl<S: HasComoments + HasRatioMean + HasGroups + HasFolds<Fold: HasComoments>> ServesAll for S {}
 
 /// An estimator, by id.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -56,6 +65,14 @@ enum Rule {
     MeanOfRatios,
     HartleyRoss,
     Mickey,
+    Jackknife,
+    RegressionRatio,
+    OptimalDefensiveRatio,
+    OptimalDefensiveMickey,
+    Difference,
+    CrossFittedDifference,
+    Choose,
+    ChooseUnbiased,
 }
 
 /// Something to be done with an estimator of any type, on its own moments of lanes `V`.
@@ -86,11 +103,14 @@ macro_rules! with_estimator {
                 }
             };
         }
-        match method.rule {
-            Rule::Plain => {
-                let $estimator = &Plain;
+        macro_rules! alone {
+            ($rule:expr) => {{
+                let $estimator = &$rule;
                 $body
-            }
+            }};
+        }
+        match method.rule {
+            Rule::Plain => alone!(Plain),
             Rule::RatioOfMeans => on_auxiliary!(RatioOfMeans),
             Rule::Quenouille => on_auxiliary!(Quenouille),
             Rule::Beale => on_auxiliary!(Beale),
@@ -98,6 +118,14 @@ macro_rules! with_estimator {
             Rule::MeanOfRatios => on_auxiliary!(MeanOfRatios),
             Rule::HartleyRoss => on_auxiliary!(HartleyRoss),
             Rule::Mickey => on_auxiliary!(Mickey),
+            Rule::Jackknife => on_auxiliary!(Jackknife),
+            Rule::RegressionRatio => alone!(RegressionRatio::default()),
+            Rule::OptimalDefensiveRatio => alone!(OptimalDefensive::of(RatioOfMeans)),
+            Rule::OptimalDefensiveMickey => alone!(OptimalDefensive::of(Mickey)),
+            Rule::Difference => alone!(Difference::default()),
+            Rule::CrossFittedDifference => alone!(CrossFitted(Difference::default())),
+            Rule::Choose => alone!(Choose::default()),
+            Rule::ChooseUnbiased => alone!(CrossFitted(Choose::default())),
         }
     }};
 }
@@ -114,13 +142,26 @@ impl Method {
     /// Plain Monte Carlo: what all others are compared with.
     pub const PLAIN: Self = Self { rule: Rule::Plain, defensive: false };
 
-    /// Every estimator: plain, the seven others on the raw auxiliary, and the seven on the defensive
-    /// one.
+    /// Every estimator: plain, the ratios on the raw auxiliary and on the defensive one, those with
+    /// fitted coefficients, and the choosers.
     pub fn all() -> impl Iterator<Item = Self> {
-        use Rule::{Beale, HartleyRoss, MeanOfRatios, Mickey, Quenouille, RatioOfMeans, Tin};
-        let rules = [RatioOfMeans, Quenouille, Beale, Tin, MeanOfRatios, HartleyRoss, Mickey];
-        let on = move |defensive| rules.into_iter().map(move |rule| Self { rule, defensive });
-        core::iter::once(Self::PLAIN).chain(on(false)).chain(on(true))
+        use Rule::{
+            Beale, Choose, ChooseUnbiased, CrossFittedDifference, Difference, HartleyRoss, Jackknife, MeanOfRatios,
+            Mickey, OptimalDefensiveMickey, OptimalDefensiveRatio, Quenouille, RatioOfMeans, RegressionRatio, Tin,
+        };
+        let ratios = [RatioOfMeans, Quenouille, Beale, Tin, Jackknife, MeanOfRatios, HartleyRoss, Mickey];
+        let fitted = [
+            RegressionRatio,
+            OptimalDefensiveRatio,
+            OptimalDefensiveMickey,
+            Difference,
+            CrossFittedDifference,
+            Choose,
+            ChooseUnbiased,
+        ];
+        let on = move |defensive| ratios.into_iter().map(move |rule| Self { rule, defensive });
+        let alone = fitted.into_iter().map(|rule| Self { rule, defensive: false });
+        core::iter::once(Self::PLAIN).chain(on(false)).chain(on(true)).chain(alone)
     }
 
     /// The estimator of that id.
@@ -147,14 +188,21 @@ impl Method {
     pub fn group(self) -> Group {
         match self.rule {
             Rule::Plain => Group::Plain,
-            Rule::RatioOfMeans | Rule::Quenouille | Rule::Beale | Rule::Tin | Rule::MeanOfRatios => Group::Ratio,
-            Rule::HartleyRoss | Rule::Mickey => Group::Unbiased,
+            Rule::RatioOfMeans | Rule::Quenouille | Rule::Beale | Rule::Tin | Rule::Jackknife | Rule::MeanOfRatios => {
+                Group::Ratio
+            }
+            Rule::HartleyRoss | Rule::Mickey | Rule::CrossFittedDifference | Rule::ChooseUnbiased => Group::Unbiased,
+            Rule::RegressionRatio | Rule::OptimalDefensiveRatio | Rule::OptimalDefensiveMickey | Rule::Difference => {
+                Group::Fitted
+            }
+            Rule::Choose => Group::Chooser,
         }
     }
 
     /// Whether its expectation is F for every number of draws.
     pub fn is_unbiased(self) -> bool {
-        matches!(self.rule, Rule::Plain | Rule::HartleyRoss | Rule::Mickey)
+        use Rule::{ChooseUnbiased, CrossFittedDifference, HartleyRoss, Mickey, Plain};
+        matches!(self.rule, Plain | HartleyRoss | Mickey | CrossFittedDifference | ChooseUnbiased)
     }
 
     /// Whether it converges to F.
@@ -170,6 +218,15 @@ impl Method {
             (Rule::Quenouille, false) => "jackknife of two halves of the ratio; bias O(1/N^2)",
             (Rule::Beale, false) => "ratio with Beale's correction; bias O(1/N^2)",
             (Rule::Tin, false) => "ratio with Tin's correction; bias O(1/N^2)",
+            (Rule::Jackknife, false) => "delete-a-group jackknife of the ratio, with its own error bar; bias O(1/N^2)",
+            (Rule::Jackknife, true) => "jackknife on the defensive auxiliary",
+            (Rule::RegressionRatio, _) => "mean(f) (H/mean(h))^alpha, alpha learned from the draws",
+            (Rule::OptimalDefensiveRatio, _) => "ratio on the best mixture of h and the proposal, learned",
+            (Rule::OptimalDefensiveMickey, _) => "mickey on the best mixture of h and the proposal, learned",
+            (Rule::Difference, _) => "mean(f) + beta (H - mean(h)), beta learned from the draws",
+            (Rule::CrossFittedDifference, _) => "difference with beta from the other half of the draws: unbiased",
+            (Rule::Choose, _) => "plain, ratio or difference, whichever predicts the least error",
+            (Rule::ChooseUnbiased, _) => "the same choice, made by the other half of the draws: unbiased",
             (Rule::MeanOfRatios, false) => "H mean(f/h); bias does not vanish, for comparison",
             (Rule::HartleyRoss, false) => "unbiased; good where f/h is nearly constant",
             (Rule::Mickey, false) => "unbiased, with the variance of the ratio (8 groups)",
@@ -212,7 +269,7 @@ mod tests {
     #[test]
     fn ids_are_unique_and_lead_back() {
         let ids: Vec<_> = Method::all().map(Method::id).collect();
-        assert_eq!(ids.len(), 15);
+        assert_eq!(ids.len(), 24);
         for method in Method::all() {
             assert_eq!(Method::from_id(method.id()), Some(method));
             assert!(method.min_draws() >= 1 && !method.about().is_empty());
