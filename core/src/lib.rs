@@ -56,6 +56,7 @@ mod flags;
 mod integrals;
 mod lanes;
 pub mod moments;
+mod path_space;
 mod planted;
 pub mod predict;
 mod problem;
@@ -77,6 +78,7 @@ pub use estimator::{
 pub use flags::Flags;
 pub use integrals::Integrals;
 pub use lanes::{Lanes, PerLane, Scalar, Single};
+pub use path_space::{PathProduct, ScaledSums};
 pub use problem::{
     Auxiliaries, Auxiliary, Integrand, Problem, Proposal, Uniform, UniformCube, WithIntegral, unit_interval,
 };

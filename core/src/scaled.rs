@@ -1,23 +1,89 @@
-//! Products and quotients whose intermediate results must not leave the exponent range.
+//! Numbers with an exponent of their own: products and quotients that must not leave the range.
+
+use core::ops::{Add, Div, Mul};
+
+/// `mantissa`·2^`exponent`: rounds like an `f64` whose exponent range has no end.
+///
+/// The mantissa is 0, not finite, or of size in [½, 1).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scaled {
+    mantissa: f64,
+    exponent: i64,
+}
+
+impl Scaled {
+    pub(crate) const ZERO: Self = Self { mantissa: 0.0, exponent: 0 };
+    pub(crate) const ONE: Self = Self { mantissa: 0.5, exponent: 1 };
+    pub(crate) const NAN: Self = Self { mantissa: f64::NAN, exponent: 0 };
+
+    pub(crate) fn new(x: f64) -> Self {
+        Self::normal(x, 0)
+    }
+
+    fn normal(mantissa: f64, exponent: i64) -> Self {
+        let (mantissa, more) = libm::frexp(mantissa);
+        Self { mantissa, exponent: exponent + i64::from(more) }
+    }
+
+    /// The nearest `f64`: 0 or infinite out of its range.
+    pub(crate) fn value(self) -> f64 {
+        shifted(self.mantissa, self.exponent)
+    }
+
+    pub(crate) fn is_finite(self) -> bool {
+        self.mantissa.is_finite()
+    }
+
+    pub(crate) fn is_zero(self) -> bool {
+        self.mantissa == 0.0
+    }
+}
+
+/// x·2^`exponent` for |x| in [½, 1): beyond ±4096 nothing changes any more.
+fn shifted(x: f64, exponent: i64) -> f64 {
+    libm::ldexp(x, exponent.clamp(-4096, 4096) as i32)
+}
+
+impl Mul for Scaled {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Self::normal(self.mantissa * other.mantissa, self.exponent + other.exponent)
+    }
+}
+
+impl Div for Scaled {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        Self::normal(self.mantissa / other.mantissa, self.exponent - other.exponent)
+    }
+}
+
+impl Add for Scaled {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        // A zero has no exponent that the other could be measured against.
+        if self.is_zero() {
+            return other;
+        }
+        if other.is_zero() {
+            return self;
+        }
+        let (large, small) = if self.exponent >= other.exponent { (self, other) } else { (other, self) };
+        Self::normal(large.mantissa + shifted(small.mantissa, small.exponent - large.exponent), large.exponent)
+    }
+}
 
 /// y/x·h, rounded as if the exponent range had no end: each order of the two operations over- or
 /// underflows for some inputs whose result is an ordinary number.
 ///
 /// Exactly `y` where x = h, so that a constant auxiliary leaves the plain mean untouched.
 pub(crate) fn quotient_times(y: f64, x: f64, h: f64) -> f64 {
-    if x == h {
-        return y;
-    }
-    if y == 0.0 || !(y.is_finite() && x.is_finite() && h.is_finite()) {
-        return y / x * h;
-    }
-    let ((y, j), (x, k), (h, l)) = (libm::frexp(y), libm::frexp(x), libm::frexp(h));
-    libm::ldexp(y / x * h, j - k + l)
+    if x == h { y } else { (Scaled::new(y) / Scaled::new(x) * Scaled::new(h)).value() }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::quotient_times;
+    use super::{Scaled, quotient_times};
 
     #[test]
     fn ordinary_numbers_are_divided_and_multiplied_once() {
@@ -34,5 +100,30 @@ mod tests {
         assert_eq!(quotient_times(1e300, 1e-300, 1e-300), 1e300);
         assert_eq!(quotient_times(0.0, -3.0, 2.0), 0.0);
         assert!(quotient_times(f64::NAN, 1.0, 2.0).is_nan());
+    }
+
+    #[test]
+    fn what_is_not_finite_is_as_in_plain_arithmetic() {
+        let odd = [0.0, -0.0, 2.0, -3.0, f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
+        let same = |ours: f64, right: f64| ours.to_bits() == right.to_bits() || (ours.is_nan() && right.is_nan());
+        for x in odd {
+            for y in odd {
+                let (a, b) = (Scaled::new(x), Scaled::new(y));
+                assert!(same((a * b).value(), x * y), "{x} * {y}");
+                assert!(same((a / b).value(), x / y), "{x} / {y}");
+                // The sign of a zero that is added to a zero is not kept.
+                assert!((a + b).value() == x + y || (x + y).is_nan() && !(a + b).is_finite(), "{x} + {y}");
+            }
+        }
+    }
+
+    #[test]
+    fn sums_round_like_plain_ones_whatever_the_exponents() {
+        for (x, y) in [(1.0, 1e-17), (0.1, 0.2), (-0.3, 0.1), (1e300, -1e-300), (3.5, -3.5)] {
+            assert_eq!((Scaled::new(x) + Scaled::new(y)).value(), x + y);
+            let tiny = Scaled::new(1e-300) * Scaled::new(1e-300);
+            let far = (Scaled::new(x) * tiny + Scaled::new(y) * tiny) / tiny;
+            assert!((far.value() - (x + y)).abs() <= 4.0 * f64::EPSILON * (x.abs() + y.abs()), "{x} + {y}");
+        }
     }
 }
