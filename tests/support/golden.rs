@@ -12,6 +12,9 @@ pub struct Golden {
     /// Laws with h = 0 at a point.
     #[serde(default)]
     pub singular: Vec<Law>,
+    /// Laws of paths of two steps.
+    #[serde(default)]
+    pub nested: Vec<Nested>,
     /// Vectors to be summed by importance sampling.
     #[serde(default)]
     pub importance_sampling: Vec<ImportanceSampling>,
@@ -51,6 +54,58 @@ pub struct ImportanceSampling {
     pub variance: BTreeMap<String, Number>,
     /// The density of the least total variance.
     pub optimal_g: Vec<Number>,
+}
+
+/// A law of paths of two steps, and what estimators make of it.
+#[derive(Debug, Deserialize)]
+pub struct Nested {
+    /// Its name.
+    pub name: String,
+    /// The first step.
+    pub stage1: Vec<First>,
+    /// The second step, given the point of the first.
+    pub stage2: Vec<Vec<Second>>,
+    /// F = E\[y₁y₂\].
+    #[serde(rename = "F", deserialize_with = "number")]
+    pub f: f64,
+    /// H₁.
+    #[serde(rename = "H1")]
+    pub h1: Number,
+    /// H₂ given the point of the first step.
+    #[serde(rename = "H2")]
+    pub h2: Vec<Number>,
+    /// What the ratio inside the integral converges to.
+    pub naive_limit: Number,
+    /// Exact moments of the estimators.
+    pub results: Vec<Record>,
+}
+
+/// A point of the first step.
+#[derive(Debug, Deserialize)]
+pub struct First {
+    /// The probability.
+    #[serde(deserialize_with = "fraction")]
+    pub p: f64,
+    /// f₁/g₁.
+    #[serde(deserialize_with = "fraction")]
+    pub y1: f64,
+    /// h₁/g₁.
+    #[serde(deserialize_with = "fraction")]
+    pub x1: f64,
+}
+
+/// A point of the second step.
+#[derive(Debug, Deserialize)]
+pub struct Second {
+    /// The probability, given the first point.
+    #[serde(deserialize_with = "fraction")]
+    pub q: f64,
+    /// f₂/g₂.
+    #[serde(deserialize_with = "fraction")]
+    pub y2: f64,
+    /// h₂/g₂.
+    #[serde(deserialize_with = "fraction")]
+    pub x2: f64,
 }
 
 /// A discrete law of draws, and what each estimator makes of it.

@@ -52,18 +52,20 @@ impl PathSums {
         let n = count as f64;
         let plain = (self.f / Scaled::new(n)).value();
         let ratio = (self.f / self.h).value();
-        let nonfinite = !self.h.is_finite() || !plain.is_finite() || (ratio.is_infinite() && !self.h.is_zero());
-        let flags = Flags::when(count == 1, Flags::ONE_SAMPLE)
-            | Flags::when(nonfinite, Flags::NONFINITE)
-            | Flags::when(self.h.is_zero() && self.f.is_zero(), Flags::NO_SUPPORT)
-            | Flags::when(self.h.is_zero() && !self.f.is_zero(), Flags::DENOM_ZERO);
+        let zero = self.h.is_zero();
+        let value = if zero || !self.h.is_finite() || ratio.is_infinite() { plain } else { ratio };
+        let nonfinite = !zero && (!ratio.is_finite() || !self.h.is_finite());
         let ess = (self.h * self.h / self.hh).value();
-        let low = ess < planted!("path_ess": (n / 10.0).min(100.0), 0.0);
-        let value = if nonfinite || self.h.is_zero() { plain } else { ratio };
+        let low = !zero && ess < planted!("path_ess": (n / 10.0).min(100.0), 0.0);
         ChannelEstimate {
             value: if value.is_finite() { value + 0.0 } else { f64::NAN }, // −0 becomes 0
             std_error: f64::NAN,
-            flags: flags | Flags::when(low, Flags::LOW_ESS) | Flags::when(value < 0.0 && plain >= 0.0, Flags::NEGATIVE),
+            flags: Flags::when(count == 1, Flags::ONE_SAMPLE)
+                | Flags::when(nonfinite || !value.is_finite(), Flags::NONFINITE)
+                | Flags::when(zero && self.f.is_zero(), Flags::NO_SUPPORT)
+                | Flags::when(zero && !self.f.is_zero(), Flags::DENOM_ZERO)
+                | Flags::when(low, Flags::LOW_ESS)
+                | Flags::when(value < 0.0 && plain >= 0.0, Flags::NEGATIVE),
         }
     }
 }
