@@ -82,6 +82,10 @@ pub enum Error {
         /// The number of strata.
         strata: usize,
     },
+    /// The exponent of a power heuristic that is not positive or not finite.
+    Exponent(f64),
+    /// Counts of techniques that are negative, not finite, or all 0.
+    Counts,
     /// A flag was raised, and the caller asked for none ([`Estimate::strict`](crate::Estimate::strict)).
     Flagged {
         /// The first channel with a flag.
@@ -124,6 +128,16 @@ impl fmt::Display for Error {
             Self::TooFewForStrata { draws, strata } => {
                 write!(f, "{draws} draws for {strata} strata: give every stratum at least one, or join strata")
             }
+            Self::Exponent(exponent) => write!(
+                f,
+                "the exponent of the power heuristic is {exponent} and must be positive and finite: 1 is the balance \
+                 heuristic, 2 the usual power heuristic"
+            ),
+            Self::Counts => write!(
+                f,
+                "the counts of the techniques must be finite, not negative, and not all 0: give the number of draws \
+                 from each technique, or its probability"
+            ),
             Self::Flagged { channel, flags } => write!(
                 f,
                 "channel {channel} raised {flags}: see Flags for each remedy, or take the value without strict()"

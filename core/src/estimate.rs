@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::flags::Flags;
 use crate::lanes::{Lanes, PerLane};
+use crate::planted::planted;
 
 /// The estimate of one channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,6 +63,43 @@ impl<V: Lanes> Estimate<V> {
             std_error: self.std_error.get(channel),
             flags: self.flags(channel),
         }
+    }
+
+    /// The sum of this and an estimate from other, independent draws: values add, errors add in
+    /// quadrature, flags unite. An unknown error makes that of the sum unknown.
+    ///
+    /// For estimates that share draws the values add as well, but not so the errors.
+    ///
+    /// ```
+    /// use ratiocv_core::{moments::{Accumulate, Comoments}, Draw, Estimator, Integrals, Plain};
+    /// let [mut a, mut b] = [Comoments::<f64>::default(); 2];
+    /// for (f, g) in [(1.0, 10.0), (7.0, 18.0)] {
+    ///     a.add(Draw::new(f, 1.0));
+    ///     b.add(Draw::new(g, 1.0));
+    /// }
+    /// let [a, b] = [Plain.estimate(&a, &Integrals::ONE)?, Plain.estimate(&b, &Integrals::ONE)?]; // 4 ± 3, 14 ± 4
+    /// assert_eq!((a.plus_independent(&b).value, a.plus_independent(&b).std_error), (18.0, 5.0));
+    /// # Ok::<(), ratiocv_core::Error>(())
+    /// ```
+    #[must_use]
+    pub fn plus_independent(&self, other: &Self) -> Self {
+        Self::from_channels(|channel| {
+            let (a, b) = (self.channel(channel), other.channel(channel));
+            ChannelEstimate {
+                value: a.value + b.value,
+                std_error: planted!("quadrature": libm::hypot(a.std_error, b.std_error), a.std_error + b.std_error),
+                flags: a.flags | b.flags,
+            }
+        })
+    }
+
+    /// The same estimate with `flags` raised as well, per channel: those of its weights, for example.
+    #[must_use]
+    pub fn flagged(&self, flags: impl Fn(usize) -> Flags) -> Self {
+        Self::from_channels(|i| {
+            let channel = self.channel(i);
+            ChannelEstimate { flags: channel.flags | flags(i), ..channel }
+        })
     }
 
     /// The same estimate, or an error if any channel raised any flag.

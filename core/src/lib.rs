@@ -65,6 +65,7 @@ mod scaled;
 mod solve;
 mod spectrum;
 mod stopping;
+pub mod weights;
 
 pub use draw::Draw;
 pub use error::Error;
