@@ -7,9 +7,8 @@ pub(super) struct Equation<const K: usize> {
     pub(super) right: f64,
 }
 
-/// What is left of the largest pivot by rounding, and far less than a pilot's noise: coefficients
-/// that depend on each other leave 10⁻¹⁶ to 10⁻¹³ (tests/weights.rs), and 10⁵ draws know an integral
-/// to a few thousandths.
+/// Far above what rounding leaves of a pivot that should be 0, at most 5·10⁻¹⁴ of the largest after
+/// 10⁵ draws (tests/weights/constants.rs), and far below the noise of such a pilot.
 const TOLERANCE: f64 = 1e-10;
 
 /// Solves 2`K` equations whose coefficients are of size 1, by Gauss–Jordan elimination with complete
@@ -32,8 +31,7 @@ pub(super) fn solve<const K: usize>(mut system: [[Equation<K>; K]; 2]) -> ([[f64
             }
         }
         largest = if rank == 0 { pivot } else { largest };
-        // Written so that a NaN stops.
-        if !(pivot > TOLERANCE * largest) {
+        if pivot <= TOLERANCE * largest {
             break;
         }
         rows.swap(rank, at.0);

@@ -81,6 +81,9 @@ impl<V: Lanes, const K: usize> OptimalWeights<V, K> {
     /// Where no technique reaches the point, all are 0; if a pdf is not a finite number, NaN.
     pub fn parts(&self, f: V, h: [V; K], pdfs: [f64; K]) -> [V::Wide; K] {
         let (mixture, b) = self.techniques.at(&pdfs);
+        if mixture == 0.0 {
+            return [V::Wide::ZERO; K];
+        }
         let splat = V::Wide::splat;
         let own: [V::Wide; K] = core::array::from_fn(|k| self.slopes[k] * h[k].widen());
         let shift: [V::Wide; K] = core::array::from_fn(|k| splat(mixture * b[k]) * self.constants[k]);
@@ -104,7 +107,7 @@ impl<V: Lanes, const K: usize> OptimalWeights<V, K> {
         self.slopes
     }
 
-    /// The constants c_k, up to a common one, which changes nothing.
+    /// The constants c_k; adding the same number to all of them changes nothing.
     pub fn constants(&self) -> [V::Wide; K] {
         self.constants
     }
@@ -131,13 +134,12 @@ impl<const K: usize> Techniques<K> {
         }
     }
 
-    /// The mixture pdf q, and b_k = ν_k g_k/q: NaN where a pdf is not a finite number.
+    /// The mixture pdf q, and b_k = ν_k g_k/q: NaN where a pdf is negative or not a finite number.
     pub(super) fn at(&self, pdfs: &[f64; K]) -> (f64, [f64; K]) {
-        let mixture = self.shares.iter().zip(pdfs).fold(0.0, |sum, (share, pdf)| sum + share * pdf);
-        if mixture.is_finite() {
-            (mixture, PowerHeuristic::BALANCE.of_channel(&self.shares, pdfs))
-        } else {
-            (f64::NAN, [f64::NAN; K])
+        if !pdfs.iter().all(|pdf| *pdf >= 0.0 && pdf.is_finite()) {
+            return (f64::NAN, [f64::NAN; K]);
         }
+        let mixture = self.shares.iter().zip(pdfs).fold(0.0, |sum, (share, pdf)| sum + share * pdf);
+        (mixture, PowerHeuristic::BALANCE.of_channel(&self.shares, pdfs))
     }
 }
