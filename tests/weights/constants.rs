@@ -125,7 +125,7 @@ fn a_technique_without_draws_gets_nothing() {
     law.counts[1] = 0.0;
     let weights = law.pilot().optimal();
     let parts = law.parts(&weights);
-    assert!(parts.iter().all(|parts| parts[1] == 0.0));
+    assert!(parts.iter().all(|parts| parts[1] == 0.0) && weights.flags(0) == Flags::NONE);
     let pick = |x: &[f64; 3]| [x[0], x[2]];
     let two = Law::<2> {
         counts: pick(&law.counts),

@@ -6,7 +6,6 @@
 //! [`check_sum`] is for weights of other origin.
 
 mod check_sum;
-mod elimination;
 mod optimal_weights;
 mod pilot;
 mod power_heuristic;

@@ -5,7 +5,7 @@ use crate::flags::Flags;
 use crate::lanes::{Lanes, PerLane};
 use crate::moments::Merge;
 use crate::planted::planted;
-use crate::weights::elimination::{Equation, solve};
+use crate::solve::{Solution, solve};
 use crate::weights::optimal_weights::{OptimalWeights, Techniques};
 
 /// The integrals that [`OptimalWeights`] are made of: of products, over the mixture pdf
@@ -92,60 +92,57 @@ impl<V: Lanes, const K: usize> Pilot<V, K> {
     /// good, one of many equally good choices. So does an empty pilot, whose weights are those of the
     /// balance heuristic. A channel with a number that is not finite has these too, and raises ALPHA.
     pub fn optimal(&self) -> OptimalWeights<V, K> {
-        let channels = V::PerLane::<([[f64; K]; 2], Flags)>::from_fn(|channel| self.solved(channel));
-        let constants = |kind: usize| core::array::from_fn(|k| V::Wide::from_fn(|i| channels.get(i).0[kind][k]));
-        let flags = PerLane::from_fn(|i| channels.get(i).1);
-        OptimalWeights::from_parts(self.techniques, constants(1), constants(0), flags)
+        // The conditions ⟨h_k λ⟩ = 0 and F_k = ∫u_k read G·a + Bᵀ·c = ⟨h f⟩ and B·a − L·c = ⟨b f⟩, with
+        // G = ⟨h_k h_j⟩, B = ⟨b_k h_j⟩ and the Laplacian L below. The first gives a; the second becomes
+        // (L + B·G⁻¹·Bᵀ)·c = B·G⁻¹·⟨h f⟩ − ⟨b f⟩. G and that matrix are positive semidefinite.
+        let wanted = self.techniques.shares.map(|share| if share == 0.0 { V::Wide::ZERO } else { V::Wide::ONE });
+        let on_auxiliaries = |right: &[V::Wide; K]| solve(&self.hh, right, &wanted, TOLERANCE);
+        let of_f = on_auxiliaries(&self.hf);
+        let of_techniques = self.bh.each_ref().map(|row| on_auxiliaries(row).x);
+        let system = core::array::from_fn(|k| {
+            core::array::from_fn(|j| self.laplacian(k, j) + dot(&self.bh[k], &of_techniques[j]))
+        });
+        let right = core::array::from_fn(
+            |k| planted!("pilot_sign": dot(&self.bh[k], &of_f.x) - self.bf[k], self.bf[k] - dot(&self.bh[k], &of_f.x)),
+        );
+        let of_constants: Solution<V::Wide, K> = solve(&system, &right, &wanted, TOLERANCE);
+        let constants = of_constants.x;
+        let slopes: [V::Wide; K] =
+            core::array::from_fn(|i| (0..K).fold(of_f.x[i], |slope, j| slope - of_techniques[j][i] * constants[j]));
+        // What is not finite, here or in the sums, makes this NaN in its lane.
+        let all = (slopes.iter().chain(&constants)).fold(self.sum_of_all(), |sum, x| sum + *x);
+        let finite = V::Wide::equal(all - all, V::Wide::ZERO);
+        let sound = |x: V::Wide| V::Wide::select(finite, x, V::Wide::ZERO);
+        let lacks_rank = of_f.lacks_rank(&wanted) + of_constants.lacks_rank(&wanted);
+        let flags = PerLane::from_fn(|i| {
+            let is_finite = (all.get(i) - all.get(i)) == 0.0;
+            Flags::when(!is_finite, Flags::ALPHA) | Flags::when(is_finite && lacks_rank.get(i) > 0.0, Flags::RANK)
+        });
+        OptimalWeights::from_parts(self.techniques, slopes.map(sound), constants.map(sound), flags)
     }
 
-    /// The constants c_k and a_k = F_k/H_k of one channel.
-    fn solved(&self, channel: usize) -> ([[f64; K]; 2], Flags) {
-        let mut system = [0, 1].map(|kind| core::array::from_fn(|k| self.equation(kind, k, channel)));
-        let size = [0, 1].map(|kind| core::array::from_fn::<_, K, _>(|k| self.size(kind, k, channel)));
-        // In units in which every coefficient is of size 1.
-        for (row, unit) in system.as_flattened_mut().iter_mut().zip(size.as_flattened()) {
-            row.right /= unit;
-            for (entry, other) in row.left.as_flattened_mut().iter_mut().zip(size.as_flattened()) {
-                *entry = *entry / unit / other;
-            }
-        }
-        let finite = |row: &Equation<K>| row.right.is_finite() && row.left.as_flattened().iter().all(|x| x.is_finite());
-        if !system.as_flattened().iter().all(finite) {
-            return ([[0.0; K]; 2], Flags::ALPHA);
-        }
-        let (mut solution, full) = solve(system);
-        for (x, unit) in solution.as_flattened_mut().iter_mut().zip(size.as_flattened()) {
-            *x /= unit;
-        }
-        if !solution.as_flattened().iter().all(|x| x.is_finite()) {
-            return ([[0.0; K]; 2], Flags::ALPHA);
-        }
-        (solution, Flags::when(!full, Flags::RANK))
+    /// L = diag(ν_k) − ⟨b_k ν_j g_j⟩. The diagonal is minus the sum of the rest of its row, since
+    /// Σ_j b_j = 1; so written it does not cancel, and L is never indefinite.
+    fn laplacian(&self, k: usize, j: usize) -> V::Wide {
+        let others = (0..K).filter(|i| *i != k).fold(0.0, |sum, i| sum + self.bb[k][i]);
+        V::Wide::splat(if j == k { planted!("pilot_diagonal": others, others + self.bb[k][k]) } else { -self.bb[k][j] })
     }
 
-    /// The equation of the condition F_k = ∫u_k (`kind` 0), or of that on c_k (`kind` 1): unknowns c_j,
-    /// then a_j.
-    ///
-    /// The diagonal of the first, ⟨b_k ν_k g_k⟩ − ν_k, is minus the sum of the rest of its row, since
-    /// Σ_j b_j = 1; so written it does not cancel, and the block is never indefinite.
-    fn equation(&self, kind: usize, k: usize, channel: usize) -> Equation<K> {
-        let get = |x: &V::Wide| x.get(channel);
-        if kind == 1 {
-            let left = [core::array::from_fn(|j| get(&self.bh[j][k])), self.hh[k].each_ref().map(get)];
-            return Equation { left, right: get(&self.hf[k]) };
-        }
-        let mut own = self.bb[k];
-        own[k] = 0.0;
-        let others = own.iter().fold(0.0, |sum, bb| sum + bb);
-        own[k] = planted!("pilot_diagonal": -others, self.bb[k][k]);
-        Equation { left: [own, self.bh[k].each_ref().map(get)], right: get(&self.bf[k]) }
+    /// The sum of all that is kept.
+    fn sum_of_all(&self) -> V::Wide {
+        let bb = self.bb.as_flattened().iter().fold(0.0, |sum, bb| sum + bb);
+        let lanes = self.bh.as_flattened().iter().chain(self.hh.as_flattened()).chain(&self.bf).chain(&self.hf);
+        lanes.fold(V::Wide::splat(bb), |sum, one| sum + *one)
     }
+}
 
-    /// √⟨b_k⟩ or √⟨h_k²⟩; 1 where that is 0.
-    fn size(&self, kind: usize, k: usize, channel: usize) -> f64 {
-        let square = if kind == 1 { self.hh[k][k].get(channel) } else { self.bb[k].iter().fold(0.0, |sum, b| sum + b) };
-        if square == 0.0 { 1.0 } else { libm::sqrt(square) }
-    }
+/// Far above what rounding leaves of an auxiliary that depends on others, far below the noise of a
+/// pilot.
+const TOLERANCE: f64 = 1e-10;
+
+/// Σx·y.
+fn dot<W: Lanes, const K: usize>(x: &[W; K], y: &[W; K]) -> W {
+    x.iter().zip(y).fold(W::ZERO, |sum, (x, y)| sum + *x * *y)
 }
 
 impl<V: Lanes, const K: usize> Merge for Pilot<V, K> {
