@@ -109,14 +109,14 @@ impl<V: Lanes, const K: usize> Pilot<V, K> {
         let constants = of_constants.x;
         let slopes: [V::Wide; K] =
             core::array::from_fn(|i| (0..K).fold(of_f.x[i], |slope, j| slope - of_techniques[j][i] * constants[j]));
-        // What is not finite, here or in the sums, makes this NaN in its lane.
+        // What is not finite, here or in the sums, makes this so in its lane.
         let all = (slopes.iter().chain(&constants)).fold(self.sum_of_all(), |sum, x| sum + *x);
-        let finite = V::Wide::equal(all - all, V::Wide::ZERO);
-        let sound = |x: V::Wide| V::Wide::select(finite, x, V::Wide::ZERO);
+        let finite = |i: usize| all.get(i).is_finite();
+        let sound = |x: V::Wide| V::Wide::from_fn(|i| if finite(i) { x.get(i) } else { 0.0 });
         let lacks_rank = of_f.lacks_rank(&wanted) + of_constants.lacks_rank(&wanted);
-        let flags = PerLane::from_fn(|i| {
-            let is_finite = (all.get(i) - all.get(i)) == 0.0;
-            Flags::when(!is_finite, Flags::ALPHA) | Flags::when(is_finite && lacks_rank.get(i) > 0.0, Flags::RANK)
+        let flags = PerLane::from_fn(|i| match finite(i) {
+            true => Flags::when(lacks_rank.get(i) > 0.0, Flags::RANK),
+            false => Flags::ALPHA,
         });
         OptimalWeights::from_parts(self.techniques, slopes.map(sound), constants.map(sound), flags)
     }
