@@ -16,7 +16,7 @@ fn joint(law: &Nested, draw: impl Fn(&First, &Second, f64) -> Draw<f64>) -> Vec<
     for ((first, seconds), h2) in law.stage1.iter().zip(&law.stage2).zip(&law.h2) {
         for second in seconds {
             let Draw { f, h: [h] } = draw(first, second, h2.0);
-            points.push(Point { y: f, x: vec![h], p: first.p * second.q });
+            points.push(Point { y: f, x: vec![h], p: first.p * second.q, w: vec![] });
         }
     }
     points

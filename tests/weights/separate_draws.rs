@@ -12,7 +12,7 @@ fn technique<const K: usize>(law: &Law<K>, k: usize) -> Vec<Point> {
     let weights = law.pilot().optimal();
     let point = |i: usize| {
         let Draw { f, h } = weights.draw(k, law.f[i], law.h[i], law.g[i]);
-        Point { y: f, x: h.to_vec(), p: law.g[i][k] }
+        Point { y: f, x: h.to_vec(), p: law.g[i][k], w: vec![] }
     };
     (0..law.f.len()).filter(|i| law.g[*i][k] > 0.0).map(point).collect()
 }
