@@ -347,8 +347,17 @@ impl Predict for RegressionRatio {
             let clamped = if alpha < least { least } else { greatest };
             return self.fixed([clamped]).predict(p, draws, order);
         }
-        let bias = p.fitting_bias() + p.f * alpha * (alpha - 1.0) / 2.0 * p.c20;
-        Prediction { bias: bias / draws as f64, mse: fitted(p.v_least(), draws, 1, order) }
+        let curvature = p.f * alpha * (alpha - 1.0) / 2.0 * p.c20;
+        // What is left where f is affine in h, and the power is not: (F̂ − F)² is that of a square of x̄ − H,
+        // of fourth moment 3(C20/N)².
+        let left = match order {
+            Order::First => 0.0,
+            Order::Second => 3.0 * curvature * curvature / draws as f64 / draws as f64,
+        };
+        Prediction {
+            bias: (p.fitting_bias() + curvature) / draws as f64,
+            mse: fitted(p.v_least(), draws, 1, order) + left,
+        }
     }
 }
 
