@@ -25,18 +25,8 @@
 //! ```
 //!
 //! To first order every estimator here is a difference control variate ȳ + c(H − x̄); they differ in
-//! the coefficient c that they imply:
-//!
-//! | estimator | c | bias | take it when |
-//! |---|---|---|---|
-//! | [`Plain`] | 0 | 0 | h does not help |
-//! | [`RatioOfMeans`] | R = F/H | O(1/N) | f ≈ R·h; many draws |
-//! | [`Quenouille`], [`Beale`], [`Tin`] | R | O(1/N²) | as above, few draws |
-//! | [`Mickey`] | R | 0 | as above, and bias is not allowed |
-//! | [`HartleyRoss`] | E\[f/h\] | 0 | f/h is nearly constant |
-//! | [`MeanOfRatios`] | – | does not vanish | never; kept for comparison |
-//!
-//! Each also runs on a [`Defensive`] auxiliary, which keeps denominators away from 0.
+//! the coefficient c that they imply, 0 for plain Monte Carlo, F/H for the ratio, Cov(x, y)/Var(x) for
+//! regressions. [`which_estimator`] says which one to take, and what each costs.
 //!
 //! # Features
 //! - `conformance`: the laws of the traits as public functions, to be run on implementors.
@@ -66,6 +56,9 @@ mod solve;
 mod spectrum;
 mod stopping;
 pub mod weights;
+
+#[doc = include_str!("which_estimator.md")]
+pub mod which_estimator {}
 
 pub use draw::Draw;
 pub use error::Error;
