@@ -36,6 +36,7 @@
 #[cfg(any(test, planted_bugs))]
 extern crate std;
 
+mod adaptive;
 #[cfg(feature = "conformance")]
 pub mod conformance;
 mod draw;
@@ -60,6 +61,7 @@ pub mod weights;
 #[doc = include_str!("which_estimator.md")]
 pub mod which_estimator {}
 
+pub use adaptive::{AtPosition, ComponentDensities, Grid, GridPoint};
 pub use draw::Draw;
 pub use error::Error;
 pub use estimate::{ChannelEstimate, Estimate};
