@@ -11,7 +11,7 @@ use rand_core::Rng;
 ///
 /// Component c is g_c(x) = Π_d p_cd(b_d)/w_d(b_d), constant where x_d stays in its bin b_d of width
 /// w_d. It learns from the L2 norm over a group of channels: one component from the norm of all
-/// (Lu et al. 2025, Lemma 1: the density ∝ ‖f‖₂ is the best for all channels together), as many as
+/// (supplement, Lemma 1: the density ∝ ‖f‖₂ has the least total variance), as many as
 /// there are channels from each |f_j|. Then [`problem`](Grid::problem) takes the components' own
 /// densities for auxiliaries (control variates from the parts of a mixture: Owen and Zhou 2000), and
 /// a ratio estimator removes the noise that the mixture costs each channel. Prefer this; a single

@@ -11,6 +11,7 @@ use crate::adaptive::point::{GridPoint, component_of};
 use crate::lanes::Lanes;
 use crate::planted::planted;
 use crate::problem::Integrand;
+use crate::sampling::l2_norm;
 use core::array::from_fn;
 use rand_core::Rng;
 
@@ -130,15 +131,12 @@ impl<const D: usize, const B: usize, const C: usize> Grid<D, B, C> {
 
 /// The L2 norm of f over the channels of each component.
 fn norms<F: Integrand<[f64; D]>, const D: usize, const C: usize>(integrand: &F, point: &GridPoint<D, C>) -> [f64; C] {
-    let channels = F::Value::LANES;
     const { assert!(C <= F::Value::LANES, "a grid needs no more components than the integrand has channels") };
     let f = integrand.value(&point.x).widen();
-    let mut norms = [0.0; C];
-    for channel in 0..channels {
-        let norm = &mut norms[component_of::<C>(channel, channels)];
-        *norm = libm::hypot(*norm, f.get(channel));
-    }
-    norms
+    from_fn(|component| {
+        let its_own = |channel| component_of::<C>(channel, F::Value::LANES) == component;
+        l2_norm(<F::Value as Lanes>::Wide::from_fn(|channel| if its_own(channel) { f.get(channel) } else { 0.0 }))
+    })
 }
 
 /// A function to be learned: the norm in units of `unit`, and so many square roots of it.
