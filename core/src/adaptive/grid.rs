@@ -43,7 +43,8 @@ use rand_core::Rng;
 /// ```compile_fail
 /// let grid = ratiocv_core::Grid::<2, 100>::uniform();
 /// ```
-/// Takes D·B·(24 + 16C) bytes, all on the stack.
+/// Takes D·B·(24 + 16C) bytes, all on the stack. Densities beyond 10³⁸, of narrow peaks in many
+/// dimensions, are infinite in `f32`: give such an integrand `f64` channels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid<const D: usize, const B: usize, const C: usize = 1> {
     pub(super) axes: [Axis<B, C>; D],
