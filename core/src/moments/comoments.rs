@@ -210,8 +210,8 @@ impl<V: Lanes, const K: usize> Takes<Draw<V, K>> for ComomentsBlock<V, K> {
         let h: [V; K] = array::from_fn(|k| draw.h[k] - self.shift.h[k]);
         let e = residual(f, &self.slope, &h);
         self.f = self.f + f;
-        for k in 0..K {
-            self.h[k] = self.h[k] + h[k];
+        for (sum, h) in self.h.iter_mut().zip(h) {
+            *sum = *sum + h;
         }
         self.squares.add(e, &h);
     }
