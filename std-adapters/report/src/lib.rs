@@ -49,6 +49,7 @@
 //!   `flagged`, `missed_flagged`), null but after 16, 64 and 256 draws. What is not a number is null.
 
 pub mod catalogue;
+pub mod exhibits;
 mod group;
 mod measure;
 mod output;

@@ -16,5 +16,6 @@ pub use compare::{Equal, Versus};
 pub use coverage::Coverage;
 pub use options::{Error, Options};
 pub use progress::Progress;
+pub(crate) use replicates::cell_seed;
 pub use report::{ChannelPoint, Figures, MethodReport, Point, ProblemReport, Report, Seconds, Theory};
 pub use run::run;

@@ -20,6 +20,8 @@ pub struct Options {
     pub budget_seconds: f64,
     /// ε of the defensive estimators.
     pub defensive_weight: f64,
+    /// Whether the [exhibits](crate::exhibits) are measured too: some 8 s, whatever the budget.
+    pub exhibits: bool,
     /// A first look: at most 3 s of budget, at most 2⁸ draws.
     pub quick: bool,
 }
@@ -33,6 +35,7 @@ impl Default for Options {
             threads: None,
             budget_seconds: 35.0,
             defensive_weight: 0.01,
+            exhibits: true,
             quick: false,
         }
     }

@@ -10,7 +10,7 @@ use ratiocv_core::{Error, Lanes};
 use ratiocv_threads::{map_chunks, stream};
 
 /// The seed of the draws of problem `id` at `draws` draws: the same whatever else is measured.
-pub(super) fn cell_seed(seed: u64, id: &str, draws: u64) -> u64 {
+pub(crate) fn cell_seed(seed: u64, id: &str, draws: u64) -> u64 {
     // FNV-1a; the stream spreads its bits.
     let name = id
         .bytes()

@@ -1,6 +1,7 @@
 //! What a run found out.
 
 use crate::catalogue::Method;
+use crate::exhibits::Exhibits;
 use crate::measure::{Coverage, Equal};
 use crate::problems::Problem;
 use crate::provenance::Provenance;
@@ -13,6 +14,8 @@ pub struct Report {
     pub provenance: Provenance,
     /// The problems, in the order of the options.
     pub problems: Vec<ProblemReport>,
+    /// What else was measured.
+    pub exhibits: Option<Exhibits>,
 }
 
 /// One problem, all estimators.

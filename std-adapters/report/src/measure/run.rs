@@ -1,6 +1,7 @@
 //! The whole measurement.
 
 use crate::catalogue::Method;
+use crate::exhibits::Exhibits;
 use crate::measure::clock::clock;
 use crate::measure::compare::compare;
 use crate::measure::plan::{Size, plan};
@@ -32,15 +33,17 @@ pub fn run(options: &Options, progress: &dyn Progress) -> Result<Report, Error> 
     let start = Instant::now();
     let pool = ThreadPoolBuilder::new().num_threads(options.threads.unwrap_or(0)).build().map_err(Error::Threads)?;
     let mut problems = Vec::with_capacity(options.problems.len());
-    let steps: usize = options.problems.iter().map(|problem| steps(options, *problem)).sum();
+    let of_exhibits = if options.exhibits { Exhibits::STEPS } else { 0 };
+    let steps = options.problems.iter().map(|problem| steps(options, *problem)).sum::<usize>() + of_exhibits;
     let steps = Steps { progress, done: Cell::new(0), total: steps as u64 };
     for problem in &options.problems {
         problems.push(problem.visit(Measure { options, problem: *problem, pool: &pool, steps: &steps })?);
     }
+    let exhibits = options.exhibits.then(|| Exhibits::measure(options, &pool, &|doing| steps.next(doing)));
     steps.progress.report(steps.total, steps.total, "done");
     let mut provenance = Provenance::now(options, pool.current_num_threads());
     provenance.wall_seconds = start.elapsed().as_secs_f64();
-    Ok(Report { provenance, problems })
+    Ok(Report { provenance, problems, exhibits })
 }
 
 /// The estimators to measure: plain first, none twice.

@@ -2,7 +2,7 @@
 
 use crate::problems::{
     Axis, BadlyCorrelated, Curve, Description, ImportanceSampled, MeanSpectrum, NearlyVanishing, NegativeCorrelation,
-    Peaks, Proportional, Signed, Solved, Source, ThreeLights, WellCorrelated,
+    Nested, Peaks, Proportional, Signed, Solved, Source, ThreeLights, WellCorrelated,
 };
 use ratiocv_core::Lanes;
 
@@ -60,6 +60,7 @@ problems! {
     ThreeLights: ThreeLights,
     MeanSpectrum: MeanSpectrum,
     Peaks: Peaks,
+    Nested: Nested,
 }
 
 impl Problem {

@@ -1,0 +1,28 @@
+//! What a comparison of run times cannot show. One file each: what is measured, and the numbers.
+
+mod nested;
+mod replicates;
+
+pub use nested::{Bias, NestedBias, NestedCurve};
+
+use crate::measure::Options;
+use rayon::ThreadPool;
+
+/// The exhibits of a report.
+#[derive(Clone, Debug)]
+pub struct Exhibits {
+    /// A ratio inside an integral.
+    pub nested: NestedBias,
+}
+
+impl Exhibits {
+    /// How many steps [`measure`](Exhibits::measure) reports.
+    pub(crate) const STEPS: usize = 1;
+
+    /// Measures them all, on the threads of `pool`; `doing` is told what comes next.
+    pub(crate) fn measure(options: &Options, pool: &ThreadPool, doing: &dyn Fn(&str)) -> Self {
+        doing("exhibits: nested ratios");
+        let nested = pool.install(|| NestedBias::measure(options));
+        Self { nested }
+    }
+}
