@@ -1,9 +1,12 @@
 //! What a comparison of run times cannot show. One file each: what is measured, and the numbers.
 
+mod floor;
 mod nested;
 mod replicates;
+mod shadow;
 
 pub use nested::{Bias, NestedBias, NestedCurve};
+pub use shadow::{REACH, Shaded, Shadow};
 
 use crate::measure::Options;
 use rayon::ThreadPool;
@@ -13,16 +16,20 @@ use rayon::ThreadPool;
 pub struct Exhibits {
     /// A ratio inside an integral.
     pub nested: NestedBias,
+    /// An auxiliary that ignores shadows.
+    pub shadow: Shadow,
 }
 
 impl Exhibits {
     /// How many steps [`measure`](Exhibits::measure) reports.
-    pub(crate) const STEPS: usize = 1;
+    pub(crate) const STEPS: usize = 2;
 
     /// Measures them all, on the threads of `pool`; `doing` is told what comes next.
     pub(crate) fn measure(options: &Options, pool: &ThreadPool, doing: &dyn Fn(&str)) -> Self {
         doing("exhibits: nested ratios");
         let nested = pool.install(|| NestedBias::measure(options));
-        Self { nested }
+        doing("exhibits: shadows");
+        let shadow = pool.install(|| Shadow::measure(options));
+        Self { nested, shadow }
     }
 }

@@ -13,7 +13,7 @@ const CHUNK: u64 = 256;
 pub(super) struct Averages<V: Lanes, const L: usize>([Variance<V, 0>; L]);
 
 impl<V: Lanes, const L: usize> Averages<V, L> {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self([Variance::default(); L])
     }
 
@@ -24,7 +24,7 @@ impl<V: Lanes, const L: usize> Averages<V, L> {
         }
     }
 
-    fn estimates(&self) -> [Estimate<V>; L] {
+    pub(super) fn estimates(&self) -> [Estimate<V>; L] {
         self.0.each_ref().map(|average| Plain.estimate_anyway(average, &Integrals::NONE))
     }
 }

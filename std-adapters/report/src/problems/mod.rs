@@ -34,5 +34,6 @@ pub use signed::Signed;
 pub use sobol::Sobol;
 pub use solved::{Description, Solved, Source};
 pub use spectrum::MeanSpectrum;
+pub(crate) use three_lights::LUMINANCE;
 pub use three_lights::ThreeLights;
 pub use well_correlated::WellCorrelated;

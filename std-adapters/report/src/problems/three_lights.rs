@@ -13,7 +13,7 @@ type Rgb = Spectrum<f64, 3>;
 /// Radiance of each light.
 const RADIANCE: [Rgb; 3] = [Spectrum([3000.0, 5.0, 6.0]), Spectrum([3.0, 3000.0, 4.0]), Spectrum([4.8, 5.8, 3000.0])];
 /// Luminance of red, green and blue.
-const LUMINANCE: Rgb = Spectrum([0.212671, 0.715160, 0.072169]);
+pub(crate) const LUMINANCE: Rgb = Spectrum([0.212671, 0.715160, 0.072169]);
 /// The part of each light that is not occluded.
 const VISIBLE: [f64; 3] = [0.95, 0.9, 0.875];
 
