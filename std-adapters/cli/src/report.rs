@@ -37,6 +37,7 @@ fn options(arguments: &ReportArguments) -> Options {
     options.threads = arguments.threads.map(usize::from);
     // In the order of the list, each once.
     if !arguments.problems.is_empty() {
+        options.exhibits = false;
         options.problems.retain(|problem| arguments.problems.contains(problem));
     }
     if !arguments.estimators.is_empty() {

@@ -32,15 +32,15 @@ struct Ball {
 }
 
 const LAMPS: [Lamp; 3] = [
-    Lamp { centre: [-0.3, 1.9, 0.5], half: 0.22, radiance: Spectrum([210.0, 38.0, 20.0]) },
-    Lamp { centre: [3.2, 1.9, 0.2], half: 0.22, radiance: Spectrum([30.0, 190.0, 45.0]) },
-    Lamp { centre: [1.7, 1.9, 2.7], half: 0.22, radiance: Spectrum([25.0, 50.0, 210.0]) },
+    Lamp { centre: [0.55, 2.4, 0.35], half: 0.2, radiance: Spectrum([120.0, 22.0, 14.0]) },
+    Lamp { centre: [2.45, 2.4, 0.35], half: 0.2, radiance: Spectrum([20.0, 105.0, 26.0]) },
+    Lamp { centre: [1.5, 2.4, 1.9], half: 0.2, radiance: Spectrum([14.0, 28.0, 120.0]) },
 ];
 
 const BALLS: [Ball; 3] = [
-    Ball { centre: [0.95, 0.42, 0.85], radius: 0.27 },
-    Ball { centre: [1.75, 0.62, 1.05], radius: 0.22 },
-    Ball { centre: [2.35, 0.30, 0.70], radius: 0.18 },
+    Ball { centre: [0.75, 0.5, 1.1], radius: 0.24 },
+    Ball { centre: [1.5, 0.75, 0.95], radius: 0.22 },
+    Ball { centre: [2.25, 0.4, 1.05], radius: 0.2 },
 ];
 
 fn minus(a: Position, b: Position) -> Position {

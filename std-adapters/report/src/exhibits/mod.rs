@@ -12,7 +12,7 @@ use crate::measure::Options;
 use rayon::ThreadPool;
 
 /// The exhibits of a report.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct Exhibits {
     /// A ratio inside an integral.
     pub nested: NestedBias,

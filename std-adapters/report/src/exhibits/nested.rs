@@ -3,7 +3,7 @@
 use crate::catalogue::{Everything, Method, everything};
 use crate::exhibits::replicates::average;
 use crate::measure::{Options, cell_seed};
-use crate::problems::{MixedLobes, Nested, Path, Rgb, Solved};
+use crate::problems::{Nested, OneLobe, Path, Rgb, Solved};
 use rand_pcg::Pcg64;
 use ratiocv_core::moments::{Accumulate, Sums};
 use ratiocv_core::{Defensive, Draw, Estimator, Integrals, Lanes, Plain, Proposal, RatioOfMeans};
@@ -14,7 +14,7 @@ use ratiocv_core::{Defensive, Draw, Estimator, Integrals, Lanes, Plain, Proposal
 /// integral but the first, H₁ Σy₁·H₂(y₂/x₂)·H₃(y₃/x₃)/Σx₁, and each of these is off by as much as a mean of
 /// ratios is, whatever the number of paths (Lu et al. 2025, supplement, section 4.3). The others are the
 /// core's own on the draws f = Πy_d, h = Πx_d/H_d of whole paths (their Eq. 17).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct NestedBias {
     /// The names of the channels.
     pub channels: Vec<String>,
@@ -25,7 +25,7 @@ pub struct NestedBias {
 }
 
 /// One estimator of [`NestedBias`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct NestedCurve {
     /// Its id.
     pub estimator: &'static str,
@@ -34,7 +34,7 @@ pub struct NestedCurve {
 }
 
 /// Mean error over F of many estimates.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct Bias {
     /// Paths per estimate.
     pub draws: u64,
@@ -95,9 +95,9 @@ fn estimates(draws: u64, rng: &mut Pcg64) -> [Rgb; 4] {
         everything::<Rgb, (), ()>(weight, &whole).unwrap_or_else(|error| panic!("{error}"));
     let mut first = Rgb::ZERO;
     for _ in 0..draws {
-        let path = MixedLobes.sample(rng);
+        let path = OneLobe.sample(rng);
         first = path.bounces[0].albedo;
-        let pdf = Rgb::splat(MixedLobes.pdf(&path));
+        let pdf = Rgb::splat(OneLobe.pdf(&path));
         moments.add(Draw::new(path.f() / pdf, path.h() / pdf));
         naive_moments.add(naive(&path));
     }

@@ -14,7 +14,7 @@ use ratiocv_threads::{map_chunks, merge_tree, stream};
 /// stands in the way, H in closed form. In the light f = h and every ratio is exact. In a shadow, the exponent
 /// α of ȳ(H/x̄)^α (Lu et al. 2025, supplement, Eq. 22) is learned from the pixel's own draws, or from those of
 /// the (2·[`REACH`]+1)² pixels around.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct Shadow {
     /// Pixels in a row.
     pub width: usize,
@@ -25,23 +25,28 @@ pub struct Shadow {
     /// Independent pictures.
     pub replicates: u64,
     /// The picture, to compare with.
+    #[serde(skip)]
     pub exact: Vec<[f64; 3]>,
     /// The estimators.
     pub estimators: Vec<Shaded>,
     /// The mean α that the pixels learned by themselves, per channel.
+    #[serde(skip)]
     pub alpha: Vec<[f64; 3]>,
     /// The same, learned from the neighbourhood.
+    #[serde(skip)]
     pub shared_alpha: Vec<[f64; 3]>,
 }
 
 /// One estimator of [`Shadow`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct Shaded {
     /// Its id.
     pub estimator: &'static str,
     /// The first of the pictures that it made.
+    #[serde(skip)]
     pub picture: Vec<[f64; 3]>,
     /// The mean squared error of each pixel, over replicates and channels.
+    #[serde(skip)]
     pub mse: Vec<f64>,
     /// RMSE over the pixels where some light is missing, and its standard error.
     pub in_shadow: (f64, f64),

@@ -65,6 +65,11 @@ pub(super) fn csv(report: &Report) -> io::Result<String> {
             }
         }
     }
+    text(file)
+}
+
+/// What was written to `file`.
+pub(super) fn text(file: csv::Writer<Vec<u8>>) -> io::Result<String> {
     let bytes = file.into_inner().map_err(csv::IntoInnerError::into_error)?;
     String::from_utf8(bytes).map_err(io::Error::other)
 }
@@ -83,6 +88,6 @@ fn shares(coverage: Option<Coverage>) -> [f64; 5] {
 }
 
 /// Shortest digits that read back as the same number; nothing for what is not one.
-fn number(x: f64) -> String {
+pub(super) fn number(x: f64) -> String {
     if x.is_finite() { format!("{x:e}") } else { String::new() }
 }

@@ -1,5 +1,6 @@
 //! `report.json`.
 
+use crate::exhibits::Exhibits;
 use crate::{Coverage, Figures, MethodReport, Point, ProblemReport, Provenance, Report, Seconds, Versus};
 use ratiocv_core::predict::Prediction;
 use serde::Serialize;
@@ -9,6 +10,7 @@ use std::io;
 struct File<'a> {
     provenance: &'a Provenance,
     problems: Vec<OfProblem>,
+    exhibits: Option<&'a Exhibits>,
 }
 
 #[derive(Serialize)]
@@ -93,7 +95,11 @@ struct OfPrediction {
 /// What is not a number becomes `null`.
 pub(super) fn json(report: &Report) -> io::Result<String> {
     let problems = report.problems.iter().map(problem).collect();
-    let mut text = serde_json::to_string_pretty(&File { provenance: &report.provenance, problems })?;
+    let mut text = serde_json::to_string_pretty(&File {
+        provenance: &report.provenance,
+        problems,
+        exhibits: report.exhibits.as_ref(),
+    })?;
     text.push('\n');
     Ok(text)
 }

@@ -1,6 +1,7 @@
 //! `index.html`: one file, nothing loaded from elsewhere.
 
 use crate::output::coverage::coverage;
+use crate::output::exhibits;
 use crate::output::headings::headings;
 use crate::output::plots::{bias, error, functions, functions_legend, look, swatch, theory};
 use crate::output::selection::{grouped, leaders};
@@ -53,6 +54,7 @@ pub(super) fn page(report: &Report) -> String {
                  lines are predicted to second order in 1/N from the problem's own moments. They should meet on the right; \
                  for few draws the expansion of a ratio may be off, that of plain Monte Carlo and Hartley–Ross is exact.";
     section(&mut page, report, "Predicted and measured error", intro, &legend(report, &ERRORS), &theories);
+    report.exhibits.iter().for_each(|measured| page.push_str(&exhibits::sections(measured)));
     integrands(&mut page, report);
     foot(&mut page, report);
     page

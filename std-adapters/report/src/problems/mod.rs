@@ -25,7 +25,7 @@ pub use importance_sampled::ImportanceSampled;
 pub use nearly_vanishing::NearlyVanishing;
 pub use negative_correlation::NegativeCorrelation;
 pub use nested::Nested;
-pub(crate) use nested::{MixedLobes, Path, Rgb};
+pub(crate) use nested::{OneLobe, Path, Rgb};
 pub use peaks::Peaks;
 pub use population::{population, population_of};
 pub use problem::{Problem, Visitor};

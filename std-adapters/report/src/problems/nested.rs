@@ -15,6 +15,8 @@ pub(crate) type Rgb = Spectrum<f64, 3>;
 pub(crate) const BOUNCES: usize = 3;
 /// How narrow the lobe of each channel is: ρ of a wrapped Cauchy density.
 const CONCENTRATION: [f64; 3] = [0.8, 0.6, 0.1];
+/// The same of the one lobe that all turns are drawn from.
+const SAMPLED: f64 = 0.45;
 /// Where the walls reflect most of each channel.
 const BRIGHTEST: [f64; 3] = [1.0 / 2.0, 5.0 / 6.0, 1.0 / 6.0];
 /// Where the lamp is.
@@ -32,10 +34,15 @@ fn lamp(x: f64) -> f64 {
     1.0 + 0.8 * libm::cos(2.0 * PI * (x - LAMP))
 }
 
-/// The density of a turn by `turn`, by each channel's own lobe (wrapped Cauchy).
-fn lobe(turn: f64) -> Rgb {
+/// The wrapped Cauchy density of a turn whose cosine is `cosine`.
+fn density(rho: f64, cosine: f64) -> f64 {
+    (1.0 - rho * rho) / (1.0 - 2.0 * rho * cosine + rho * rho)
+}
+
+/// The density of a turn by each channel's own lobe, and the one that it is drawn with.
+fn lobes(turn: f64) -> (Rgb, f64) {
     let cosine = libm::cos(2.0 * PI * turn);
-    Spectrum(CONCENTRATION.map(|rho| (1.0 - rho * rho) / (1.0 - 2.0 * rho * cosine + rho * rho)))
+    (Spectrum(CONCENTRATION.map(|rho| density(rho, cosine))), density(SAMPLED, cosine))
 }
 
 /// One bounce: h_d = `albedo`·`lobe`, whose integral over the next point is `albedo`.
@@ -45,7 +52,7 @@ pub(crate) struct Bounce {
     pub(crate) albedo: Rgb,
     /// The channels' own densities of the next point.
     pub(crate) lobe: Rgb,
-    /// The density that the next point was drawn with: the mean of the channels'.
+    /// The density that the next point was drawn with.
     pub(crate) pdf: f64,
 }
 
@@ -62,9 +69,9 @@ impl Path {
     fn along(turns: [f64; BOUNCES]) -> Self {
         let mut x = START;
         let bounces = turns.map(|turn| {
-            let (albedo, lobe) = (albedo(x), lobe(turn));
+            let (albedo, (lobe, pdf)) = (albedo(x), lobes(turn));
             x += turn;
-            Bounce { albedo, lobe, pdf: (lobe[0] + lobe[1] + lobe[2]) / 3.0 }
+            Bounce { albedo, lobe, pdf }
         });
         Self { bounces, light: lamp(x) }
     }
@@ -81,20 +88,16 @@ impl Path {
     }
 }
 
-/// Every turn by the lobe of some channel, each channel as likely.
+/// Every turn from one lobe, which is no channel's own.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct MixedLobes;
+pub(crate) struct OneLobe;
 
-impl Proposal for MixedLobes {
+impl Proposal for OneLobe {
     type Point = Path;
     #[inline]
     fn sample<R: Rng + ?Sized>(&self, rng: &mut R) -> Path {
         Path::along(core::array::from_fn(|_| {
-            // The same number chooses the channel and, by what is left of it, the turn.
-            let u = 3.0 * unit_interval(rng);
-            let rho = CONCENTRATION[u as usize];
-            let rest = u - libm::floor(u);
-            libm::atan((1.0 - rho) / (1.0 + rho) * libm::tan(PI * (rest - 0.5))) / PI
+            libm::atan((1.0 - SAMPLED) / (1.0 + SAMPLED) * libm::tan(PI * (unit_interval(rng) - 0.5))) / PI
         }))
     }
     #[inline]
@@ -115,9 +118,9 @@ fn through(damping: &dyn Fn(usize) -> f64, u: &dyn Fn(f64) -> f64, x: f64) -> f6
     points.map(|y| lobe(y - x) * u(y)).sum::<f64>() / GRID as f64
 }
 
-/// The Fourier coefficients ρⁿ of a channel's lobe.
-fn own(channel: usize) -> impl Fn(usize) -> f64 {
-    move |n| libm::pow(CONCENTRATION[channel], n as f64)
+/// The Fourier coefficients ρⁿ of a lobe.
+fn powers(rho: f64) -> impl Fn(usize) -> f64 {
+    move |n| libm::pow(rho, n as f64)
 }
 
 /// What the wall at `x` reflects of `channel` after two more bounces by lobes of coefficients `damping`.
@@ -128,15 +131,14 @@ fn reflected_at(channel: usize, damping: &dyn Fn(usize) -> f64, x: f64) -> f64 {
 
 /// What x₀ reflects if the first bounce has the lobe of `channel`, and the others that of `damping`.
 fn reflected(channel: usize, damping: &dyn Fn(usize) -> f64) -> f64 {
-    albedo(START)[channel] * through(&own(channel), &|x| reflected_at(channel, damping, x), START)
+    albedo(START)[channel] * through(&powers(CONCENTRATION[channel]), &|x| reflected_at(channel, damping, x), START)
 }
 
 impl Nested {
     /// What the naive nested ratio converges to: behind the first bounce every channel sees the lobe that
-    /// was sampled, the mean of the three, in place of its own.
+    /// was sampled in place of its own.
     pub(crate) fn naive_limit() -> Rgb {
-        let sampled = |n| (0..3).map(|channel| own(channel)(n)).sum::<f64>() / 3.0;
-        Rgb::from_fn(|channel| reflected(channel, &sampled))
+        Rgb::from_fn(|channel| reflected(channel, &powers(SAMPLED)))
     }
 }
 
@@ -148,17 +150,17 @@ impl Solved for Nested {
         title: "Three bounces, nested",
         formula: "f = Π c(x_{d−1}) p(x_d − x_{d−1}) · l(x₃), d = 1, 2, 3, on a ring of length 1, x₀ = 1/2; channel j's lobe p_j is \
                   wrapped Cauchy with ρ = 0.8, 0.6, 0.1; walls c_j(x) = 1/2 + 3/10 cos(2π(x − 1/2 − j/3)); lamp l(x) \
-                  = 1 + 4/5 cos(2π(x − 0.1)); h = Π h_d/H_d(prefix) with h_d = c p, H_d = c(x_{d−1}); every turn has the \
-                  density (p_0 + p_1 + p_2)/3",
+                  = 1 + 4/5 cos(2π(x − 0.1)); h = Π h_d/H_d(prefix) with h_d = c p, H_d = c(x_{d−1}); every turn is \
+                  drawn from such a lobe with ρ = 0.45",
         why: "A path: each integral is inside the one before it, and its auxiliary's integral depends on the path so far. \
               The product of all h_d/H_d has the integral 1.",
     };
 
     fn exact(&self) -> Rgb {
-        Rgb::from_fn(|channel| reflected(channel, &own(channel)))
+        Rgb::from_fn(|channel| reflected(channel, &powers(CONCENTRATION[channel])))
     }
     fn source(&self) -> impl Source<Value = Rgb> {
-        Problem::new(Path::f).auxiliary(WithIntegral::new(Path::h, Rgb::ONE)).proposal(MixedLobes)
+        Problem::new(Path::f).auxiliary(WithIntegral::new(Path::h, Rgb::ONE)).proposal(OneLobe)
     }
     fn channel(&self, channel: usize) -> String {
         ["red", "green", "blue"][channel].into()
@@ -168,10 +170,12 @@ impl Solved for Nested {
         let mut curves = Vec::new();
         for j in 0..3 {
             // Over the first bounce, the others integrated.
-            let f = |x: f64| albedo(START)[j] * lobe(x - START)[j] * reflected_at(j, &own(j), x) / exact[j];
+            let rest = |x: f64| reflected_at(j, &powers(CONCENTRATION[j]), x);
+            let f = |x: f64| albedo(START)[j] * lobes(x - START).0[j] * rest(x) / exact[j];
             curves.push(Curve::of(self.channel(j), j, Role::Integrand, f));
-            curves.push(Curve::of(self.channel(j), j, Role::Auxiliary, |x| lobe(x - START)[j]));
+            curves.push(Curve::of(self.channel(j), j, Role::Auxiliary, |x| lobes(x - START).0[j]));
         }
+        curves.push(Curve::of(String::new(), 0, Role::Proposal, |x| lobes(x - START).1));
         ("x₁, the first point", curves)
     }
 }
@@ -203,14 +207,14 @@ mod tests {
 
     #[test]
     fn the_closed_form_is_the_integral() {
-        equal(Nested.exact(), integral(80, Path::f));
-        equal(Rgb::ONE, integral(80, Path::h));
+        equal(Nested.exact(), integral(100, Path::f));
+        equal(Rgb::ONE, integral(100, Path::h));
     }
 
     #[test]
     fn the_naive_limit_is_that_of_its_draws() {
-        // E[y₁·H₂·(y₂/x₂)·H₃·(y₃/x₃)] with x₂, x₃ drawn from the mean lobe (golden `naive_limit`).
-        let limit = integral(80, |path| {
+        // E[y₁·H₂·(y₂/x₂)·H₃·(y₃/x₃)] with x₂, x₃ drawn from the one lobe (golden `naive_limit`).
+        let limit = integral(100, |path| {
             let [first, second, third] = &path.bounces;
             let drawn = Rgb::splat(second.pdf * third.pdf * path.light);
             first.albedo * first.lobe * second.albedo * third.albedo * drawn

@@ -5,12 +5,14 @@ mod bias;
 mod error;
 mod functions;
 mod panel;
+mod paths;
 mod style;
 mod theory;
 
 pub(super) use bias::bias;
 pub(super) use error::error;
 pub(super) use functions::{functions, legend as functions_legend};
+pub(super) use paths::bias_of_paths;
 pub(super) use style::{look, swatch};
 pub(super) use theory::theory;
 

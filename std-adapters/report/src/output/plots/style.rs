@@ -41,7 +41,7 @@ pub(crate) fn look(id: &str) -> Look {
         "quenouille" => (GREY, (6, 3), Mark::Plus),
         "beale" => (SKY, (6, 3), Mark::Down),
         "tin" => (ORANGE, (2, 3), Mark::Cross),
-        "mean_of_ratios" => (PURPLE, (9, 4), Mark::Diamond),
+        "mean_of_ratios" | "naive_ratio" => (PURPLE, (9, 4), Mark::Diamond),
         "hartley_ross" => (VERMILLION, (1, 0), Mark::Square),
         "mickey" => (GREEN, (1, 0), Mark::Up),
         _ => (BLACK, (4, 4), Mark::None),
