@@ -4,9 +4,11 @@ mod floor;
 mod nested;
 mod replicates;
 mod shadow;
+mod two_techniques;
 
 pub use nested::{Bias, NestedBias, NestedCurve};
 pub use shadow::{REACH, Shaded, Shadow};
+pub use two_techniques::{Combination, TwoTechniquesMse};
 
 use crate::measure::Options;
 use rayon::ThreadPool;
@@ -18,11 +20,13 @@ pub struct Exhibits {
     pub nested: NestedBias,
     /// An auxiliary that ignores shadows.
     pub shadow: Shadow,
+    /// Two auxiliaries together.
+    pub two_techniques: TwoTechniquesMse,
 }
 
 impl Exhibits {
     /// How many steps [`measure`](Exhibits::measure) reports.
-    pub(crate) const STEPS: usize = 2;
+    pub(crate) const STEPS: usize = 3;
 
     /// Measures them all, on the threads of `pool`; `doing` is told what comes next.
     pub(crate) fn measure(options: &Options, pool: &ThreadPool, doing: &dyn Fn(&str)) -> Self {
@@ -30,6 +34,8 @@ impl Exhibits {
         let nested = pool.install(|| NestedBias::measure(options));
         doing("exhibits: shadows");
         let shadow = pool.install(|| Shadow::measure(options));
-        Self { nested, shadow }
+        doing("exhibits: two techniques");
+        let two_techniques = pool.install(|| TwoTechniquesMse::measure(options));
+        Self { nested, shadow, two_techniques }
     }
 }

@@ -51,8 +51,8 @@ const ESTIMATORS: [&str; 4] = ["naive_ratio", "ratio", "hartley_ross", "mickey"]
 /// Paths per estimate: 2¹ to 2⁹.
 const POWERS: core::ops::RangeInclusive<u32> = 1..=9;
 /// Paths at each size.
-const PATHS: u64 = 1 << 20;
-const QUICK_PATHS: u64 = 1 << 18;
+const PATHS: u64 = 1 << 19;
+const QUICK_PATHS: u64 = 1 << 17;
 
 /// The draw whose ratio of means is the naive nested ratio: of the first integral y₁ times the one-draw
 /// ratios H_d·(f_d/h_d) inside it, and x₁. On this problem f_d = h_d, but for the lamp at the end.
@@ -93,18 +93,16 @@ fn estimates(draws: u64, rng: &mut Pcg64) -> [Rgb; 4] {
     let mut naive_moments = Sums::<Rgb>::default();
     let mut moments: Everything<Rgb> =
         everything::<Rgb, (), ()>(weight, &whole).unwrap_or_else(|error| panic!("{error}"));
-    let mut first = Rgb::ZERO;
-    for _ in 0..draws {
-        let path = OneLobe.sample(rng);
-        first = path.bounces[0].albedo;
-        let pdf = Rgb::splat(OneLobe.pdf(&path));
-        moments.add(Draw::new(path.f() / pdf, path.h() / pdf));
-        naive_moments.add(naive(&path));
-    }
+    let paths: Vec<Path> = (0..draws).map(|_| OneLobe.sample(rng)).collect();
+    let whole_path = |path: &Path| {
+        let pdf = Rgb::splat(OneLobe.pdf(path));
+        Draw::new(path.f() / pdf, path.h() / pdf)
+    };
+    moments.add_batch(&paths.iter().map(whole_path).collect::<Vec<_>>());
+    naive_moments.add_batch(&paths.iter().map(naive).collect::<Vec<_>>());
     ESTIMATORS.map(|id| match Method::from_id(id) {
         Some(method) => method.estimate(weight, &moments, &whole).value,
-        // H₁ is the albedo of the place where all paths begin.
-        None => RatioOfMeans.estimate_anyway(&naive_moments, &Integrals::new([first])).value,
+        None => RatioOfMeans.estimate_anyway(&naive_moments, &Integrals::new([Nested::first_integral()])).value,
     })
 }
 

@@ -4,8 +4,8 @@ use crate::exhibits::floor::{HEIGHT, Spot, WIDTH};
 use crate::exhibits::replicates::Averages;
 use crate::measure::{Options, cell_seed};
 use crate::problems::Rgb;
-use ratiocv_core::moments::{Comoments, HasComoments, HasMeans, Merge, Moments};
-use ratiocv_core::{Estimator, Integrals, Lanes, Plain, RatioOfMeans, Spectrum};
+use ratiocv_core::moments::{Comoments, Merge};
+use ratiocv_core::{Estimator, Fit, Integrals, Lanes, Plain, RatioOfMeans, RegressionRatio, Spectrum};
 use ratiocv_threads::{map_chunks, merge_tree, stream};
 
 /// A picture: a floor under coloured lamps, in shadows that the auxiliary ignores.
@@ -140,12 +140,12 @@ fn picture(seed: u64, number: u64, exact: &[Rgb]) -> Pictures {
         let (moments, f) = (&pixels[pixel], exact[pixel]);
         let h = Spot::of_pixel(pixel).unshadowed();
         let integrals = Integrals::new([h]);
-        let [own, shared] = [moments, &around[pixel]].map(learned);
+        let [own, shared] = [moments, &around[pixel]].map(|draws| RegressionRatio::default().learn(draws, &integrals));
         let estimates = [
             Plain.estimate_anyway(moments, &integrals).value,
             RatioOfMeans.estimate_anyway(moments, &integrals).value,
-            regression_ratio(moments, h, own),
-            regression_ratio(moments, h, shared),
+            own.estimate_anyway(moments, &integrals).value,
+            shared.estimate_anyway(moments, &integrals).value,
         ];
         let region = if f == h { 1 } else { 0 };
         counts[region] += 1.0;
@@ -157,7 +157,7 @@ fn picture(seed: u64, number: u64, exact: &[Rgb]) -> Pictures {
             sum[region] += mse;
         }
         values.push(estimates);
-        alphas.push([own, shared]);
+        alphas.push([own, shared].map(|learned| learned.coefficients[0]));
         squares.push(mse);
     }
     let mut regions = Averages::new();
@@ -188,29 +188,10 @@ fn neighbourhoods(pixels: &[Pixel]) -> Vec<Pixel> {
         .collect()
 }
 
-/// α̂ = (s_xy/s_xx)(x̄/ȳ) of each channel, clamped to [−1, 2]; 0 where it is undefined.
-fn learned(moments: &Pixel) -> Rgb {
-    let (closed, count) = (moments.closed(), moments.count());
-    Rgb::from_fn(|channel| {
-        let channel = closed.channel(channel);
-        let (means, spread) = (channel.means(count), channel.comoments());
-        let alpha = (spread.slope + spread.eh / spread.hh) * means.h[0] / means.f;
-        if alpha.is_nan() { 0.0 } else { alpha.clamp(-1.0, 2.0) }
-    })
-}
-
-/// ȳ(H/x̄)^α.
-fn regression_ratio(moments: &Pixel, h: Rgb, alpha: Rgb) -> Rgb {
-    let (closed, count) = (moments.closed(), moments.count());
-    Rgb::from_fn(|channel| {
-        let means = closed.channel(channel).means(count);
-        means.f * libm::pow(h[channel] / means.h[0], alpha[channel])
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ratiocv_core::moments::Moments;
 
     fn exhibit() -> Shadow {
         Shadow::measure(&Options { quick: true, ..Options::default() })

@@ -16,6 +16,7 @@ mod solved;
 mod spectrum;
 mod three_lights;
 mod truncated;
+mod two_techniques;
 mod uniform;
 mod well_correlated;
 
@@ -36,4 +37,5 @@ pub use solved::{Description, Solved, Source};
 pub use spectrum::MeanSpectrum;
 pub(crate) use three_lights::LUMINANCE;
 pub use three_lights::ThreeLights;
+pub(crate) use two_techniques::{Functions, TwoTechniques};
 pub use well_correlated::WellCorrelated;

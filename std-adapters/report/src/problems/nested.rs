@@ -135,6 +135,11 @@ fn reflected(channel: usize, damping: &dyn Fn(usize) -> f64) -> f64 {
 }
 
 impl Nested {
+    /// H₁: all paths begin at the same place.
+    pub(crate) fn first_integral() -> Rgb {
+        albedo(START)
+    }
+
     /// What the naive nested ratio converges to: behind the first bounce every channel sees the lobe that
     /// was sampled in place of its own.
     pub(crate) fn naive_limit() -> Rgb {

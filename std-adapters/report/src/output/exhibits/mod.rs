@@ -3,6 +3,7 @@
 mod nested;
 mod rows;
 mod shadow;
+mod two_techniques;
 
 pub(super) use rows::csv;
 
@@ -11,7 +12,9 @@ use crate::output::picture::Picture;
 
 /// The sections of the page.
 pub(super) fn sections(exhibits: &Exhibits) -> String {
-    nested::section(&exhibits.nested) + &shadow::section(&exhibits.shadow)
+    nested::section(&exhibits.nested)
+        + &shadow::section(&exhibits.shadow)
+        + &two_techniques::section(&exhibits.two_techniques)
 }
 
 /// The pictures that are written beside the page.

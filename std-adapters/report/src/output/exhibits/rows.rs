@@ -22,7 +22,7 @@ struct Row<'a> {
 pub(crate) fn csv(exhibits: &Exhibits) -> io::Result<String> {
     let mut file = csv::Writer::from_writer(Vec::new());
     file.write_record(HEADER)?;
-    for row in nested(exhibits).into_iter().chain(shadow(exhibits)) {
+    for row in nested(exhibits).into_iter().chain(shadow(exhibits)).chain(two_techniques(exhibits)) {
         let words = [row.exhibit.into(), row.estimator.into(), row.draws.to_string(), row.replicates.to_string()];
         let more = [row.channel.into(), row.quantity.into(), number(row.value), number(row.std_error)];
         file.write_record(words.into_iter().chain(more))?;
@@ -75,4 +75,27 @@ fn shadow(exhibits: &Exhibits) -> Vec<Row<'_>> {
         ]
     });
     of.collect()
+}
+
+fn two_techniques(exhibits: &Exhibits) -> Vec<Row<'_>> {
+    let exhibit = &exhibits.two_techniques;
+    let mut rows = vec![];
+    for combination in &exhibit.estimators {
+        let row = |draws, replicates, quantity, (value, std_error)| Row {
+            exhibit: "two-techniques",
+            estimator: combination.estimator,
+            draws,
+            replicates,
+            channel: "all",
+            quantity,
+            value,
+            std_error,
+        };
+        rows.push(row(0, 0, "n_mse_limit", (combination.predicted, 0.0)));
+        for (i, (draws, replicates)) in exhibit.draws.iter().zip(&exhibit.replicates).enumerate() {
+            rows.push(row(*draws, *replicates, "n_mse", combination.measured[i]));
+            rows.push(row(*draws, *replicates, "bias", combination.bias[i]));
+        }
+    }
+    rows
 }

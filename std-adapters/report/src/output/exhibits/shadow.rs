@@ -4,8 +4,8 @@ use crate::exhibits::{REACH, Shadow};
 use crate::output::picture::{Picture, red_or_blue, srgb};
 use crate::output::words::short;
 
-/// A change of the error by this factor has the full colour.
-const FULL: f64 = 4.0;
+/// A change of the error by so much has the full colour; the floor's radiance is about 0.6.
+const FULL: f64 = 0.03;
 /// An error that rounding explains, of a radiance of about 1.
 const EXACT: f64 = 1e-12;
 
@@ -18,11 +18,8 @@ pub(super) fn pictures(shadow: &Shadow) -> Vec<Picture> {
     let alpha = |name, title: &str, alpha: &[[f64; 3]]| Picture::new(name, title, shadow.width, alpha.iter().copied());
     let improvement = |index: usize, name, title: &str| {
         let [ratio, learned] = [1, index].map(|i| shadow.estimators[i].mse.iter().map(|mse| libm::sqrt(*mse)));
-        let colour = |(ratio, learned): (f64, f64)| {
-            let exact = ratio <= EXACT && learned <= EXACT;
-            red_or_blue(if exact { 0.0 } else { libm::log(ratio / learned) / libm::log(FULL) })
-        };
-        Picture::new(name, title, shadow.width, ratio.zip(learned).map(colour))
+        let colours = ratio.zip(learned).map(|(ratio, learned)| red_or_blue((ratio - learned) / FULL));
+        Picture::new(name, title, shadow.width, colours)
     };
     vec![
         scene("shadow-reference", "The floor: what all should show", &shadow.exact),
@@ -64,7 +61,7 @@ pub(super) fn section(shadow: &Shadow) -> String {
          lamps are seen f = h, and the ratio is exact. In the shadow of the red lamp h goes on promising red: there the ratio \
          divides by noise that f does not have. The exponent α of ȳ(H/x̄)<sup>α</sup> learns it from the draws: white where \
          h is right, without red where the red light is missing. In the maps of improvement red is a smaller error \
-         than the ratio's, blue a larger one, full colour a factor of {FULL}, over {replicates} pictures. An α of the pixel's \
+         than the ratio's, blue a larger one, full colour a difference of {FULL} in RMSE, over {replicates} pictures. An α of the pixel's \
          own is noisy; that of {side} by {side} pixels is less so, but smears the edges of shadows.</p>\n\
          <div class=\"pictures\">\n{figures}</div>\n\
          <div class=\"scroll\"><table>\n<thead><tr><th>estimator</th><th>RMSE in shadow</th><th>RMSE in the light</th></tr>\

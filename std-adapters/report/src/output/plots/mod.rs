@@ -7,6 +7,7 @@ mod functions;
 mod panel;
 mod paths;
 mod style;
+mod techniques;
 mod theory;
 
 pub(super) use bias::bias;
@@ -14,6 +15,7 @@ pub(super) use error::error;
 pub(super) use functions::{functions, legend as functions_legend};
 pub(super) use paths::bias_of_paths;
 pub(super) use style::{look, swatch};
+pub(super) use techniques::{techniques, techniques_legend};
 pub(super) use theory::theory;
 
 use crate::{MethodReport, ProblemReport};
