@@ -46,7 +46,11 @@
 //! - each of `points`: `draws`, `replicates`, `seconds` (`median`, `lower_quartile`, `upper_quartile`), `all`
 //!   and `channels`, which hold `bias`, `bias_std_error`, `mse`, `mse_std_error`, `predicted` and
 //!   `predicted_first_order` (`bias`, `mse`), and `coverage` (`share`, `std_error`, `without_interval`,
-//!   `flagged`, `missed_flagged`), null but after 16, 64 and 256 draws. What is not a number is null.
+//!   `flagged`, `missed_flagged`), null but after 16, 64 and 256 draws. What is not a number is null;
+//! - `exhibits`: the numbers of [`exhibits::Exhibits`], or null.
+//!
+//! `exhibits.csv` has one row per number of the [exhibits]: `exhibit`, `estimator`, `draws` and `replicates` (0 for a
+//! limit), `channel`, `quantity`, `value`, `std_error`; the pictures are `shadow-….png`.
 
 pub mod catalogue;
 pub mod exhibits;

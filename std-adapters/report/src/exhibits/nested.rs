@@ -6,7 +6,7 @@ use crate::measure::{Options, cell_seed};
 use crate::problems::{Nested, OneLobe, Path, Rgb, Solved};
 use rand_pcg::Pcg64;
 use ratiocv_core::moments::{Accumulate, Sums};
-use ratiocv_core::{Defensive, Draw, Estimator, Integrals, Lanes, Plain, Proposal, RatioOfMeans};
+use ratiocv_core::{Defensive, Draw, Estimator, Integrals, Lanes, PathProduct, Plain, Proposal, RatioOfMeans};
 
 /// Bias against the number of paths, on [`Nested`].
 ///
@@ -63,6 +63,17 @@ fn naive(path: &Path) -> Draw<Rgb> {
     Draw::new(x1 * inside, x1)
 }
 
+/// The path as one draw of the joint integral, put together bounce by bounce, as a path tracer would.
+fn whole(path: &Path) -> Draw<Rgb> {
+    let mut product = PathProduct::default();
+    for (number, bounce) in path.bounces.iter().enumerate() {
+        let h = bounce.albedo * bounce.lobe / Rgb::splat(bounce.pdf);
+        let f = if number + 1 == path.bounces.len() { h * Rgb::splat(path.light) } else { h };
+        product.extend(Draw::new(f, h), &Integrals::new([bounce.albedo]));
+    }
+    product.draw()
+}
+
 impl NestedBias {
     pub(super) fn measure(options: &Options) -> Self {
         let exact = Nested.exact();
@@ -89,19 +100,15 @@ impl NestedBias {
 /// The estimates of all [`ESTIMATORS`] from the same paths.
 fn estimates(draws: u64, rng: &mut Pcg64) -> [Rgb; 4] {
     let weight = Defensive::<Plain>::DEFAULT_WEIGHT;
-    let whole = Integrals::<Rgb>::ONE;
+    let one = Integrals::<Rgb>::ONE;
     let mut naive_moments = Sums::<Rgb>::default();
     let mut moments: Everything<Rgb> =
-        everything::<Rgb, (), ()>(weight, &whole).unwrap_or_else(|error| panic!("{error}"));
+        everything::<Rgb, (), ()>(weight, &one).unwrap_or_else(|error| panic!("{error}"));
     let paths: Vec<Path> = (0..draws).map(|_| OneLobe.sample(rng)).collect();
-    let whole_path = |path: &Path| {
-        let pdf = Rgb::splat(OneLobe.pdf(path));
-        Draw::new(path.f() / pdf, path.h() / pdf)
-    };
-    moments.add_batch(&paths.iter().map(whole_path).collect::<Vec<_>>());
+    moments.add_batch(&paths.iter().map(whole).collect::<Vec<_>>());
     naive_moments.add_batch(&paths.iter().map(naive).collect::<Vec<_>>());
     ESTIMATORS.map(|id| match Method::from_id(id) {
-        Some(method) => method.estimate(weight, &moments, &whole).value,
+        Some(method) => method.estimate(weight, &moments, &one).value,
         None => RatioOfMeans.estimate_anyway(&naive_moments, &Integrals::new([Nested::first_integral()])).value,
     })
 }
@@ -109,6 +116,19 @@ fn estimates(draws: u64, rng: &mut Pcg64) -> [Rgb; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ratiocv_threads::stream;
+
+    #[test]
+    fn bounce_by_bounce_is_the_product_of_all() {
+        let rng = &mut stream(1, 1);
+        for _ in 0..100 {
+            let path = OneLobe.sample(rng);
+            let (ours, pdf) = (whole(&path), Rgb::splat(OneLobe.pdf(&path)));
+            for (ours, right) in [(ours.f, path.f() / pdf), (ours.h[0], path.h() / pdf)] {
+                assert!((0..3).all(|j| libm::fabs(ours[j] / right[j] - 1.0) <= 1e-14), "{ours:?} {right:?}");
+            }
+        }
+    }
 
     #[test]
     fn only_the_naive_bias_stays() {

@@ -59,7 +59,7 @@ const COMBINATIONS: [(&str, &str, bool); COUNT] = [
     ("ratio_2", "ratio on h₂ alone", true),
     ("random_mixture_equal", "ratio on (h₁ + h₂)/2", true),
     ("random_mixture", "ratio on the best mixture of h₁ and h₂, weights learned", true),
-    ("optimal_defensive_ratio", "the same with g as a third, weights learned", true),
+    ("optimal_defensive_ratio", "the same with g as a third: the difference again, unless a weight is clamped", true),
     ("deterministic_mixture_balance", "two ratios, f divided by the balance heuristic on h", true),
     ("deterministic_mixture_power", "two ratios, f divided by the power heuristic on h", true),
     ("multiple_regression_ratio", "product of both ratios, exponents learned", true),

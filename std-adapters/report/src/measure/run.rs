@@ -147,6 +147,7 @@ mod tests {
             threads: Some(threads),
             budget_seconds: 0.2,
             quick: true,
+            exhibits: false,
             ..Options::default()
         };
         run(&options, &()).unwrap()

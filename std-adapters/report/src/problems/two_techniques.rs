@@ -44,7 +44,7 @@ impl TwoTechniques {
         self.techniques[k].quantile(u)
     }
 
-    /// ∫`function`, by the midpoint rule: to nine digits.
+    /// ∫`function`, by the midpoint rule: ∫f to 3·10⁻⁹.
     pub(crate) fn integral(&self, function: impl Fn(&Functions) -> f64) -> f64 {
         self.cells().map(|(volume, at)| volume * function(&at)).sum()
     }

@@ -2,7 +2,6 @@
 
 use crate::exhibits::{REACH, Shadow};
 use crate::output::picture::{Picture, red_or_blue, srgb};
-use crate::output::words::short;
 
 /// A change of the error by so much has the full colour; the floor's radiance is about 0.6.
 const FULL: f64 = 0.03;
@@ -22,7 +21,7 @@ pub(super) fn pictures(shadow: &Shadow) -> Vec<Picture> {
         Picture::new(name, title, shadow.width, colours)
     };
     vec![
-        scene("shadow-reference", "The floor: what all should show", &shadow.exact),
+        scene("shadow-reference", "What all should show", &shadow.exact),
         made(0, "shadow-plain", "Plain Monte Carlo"),
         made(1, "shadow-ratio", "Ratio"),
         made(3, "shadow-regression", "Regression ratio, α from the neighbourhood"),
@@ -44,12 +43,11 @@ pub(super) fn section(shadow: &Shadow) -> String {
         .iter()
         .map(|shaded| {
             let (rmse, error) = shaded.in_shadow;
-            let light = if shaded.in_light <= EXACT { "exact".into() } else { short(shaded.in_light) };
+            let light = if shaded.in_light <= EXACT { "exact".into() } else { format!("{:.4}", shaded.in_light) };
             format!(
-                "<tr><td><code>{}</code></td><td>{} ± {}</td><td>{light}</td></tr>\n",
+                "<tr><td><code>{}</code></td><td>{rmse:.4} <span class=\"soft\">± {error:.4}</span></td>\
+                 <td>{light}</td></tr>\n",
                 shaded.estimator,
-                short(rmse),
-                short(error)
             )
         })
         .collect();
@@ -59,10 +57,11 @@ pub(super) fn section(shadow: &Shadow) -> String {
          <p>A white floor under a red, a green and a blue lamp; three balls, left out of the picture, stand in the light. \
          {draws} draws per pixel; h is each draw's light as if nothing stood in the way, H is known in closed form. Where all \
          lamps are seen f = h, and the ratio is exact. In the shadow of the red lamp h goes on promising red: there the ratio \
-         divides by noise that f does not have. The exponent α of ȳ(H/x̄)<sup>α</sup> learns it from the draws: white where \
-         h is right, without red where the red light is missing. In the maps of improvement red is a smaller error \
-         than the ratio's, blue a larger one, full colour a difference of {FULL} in RMSE, over {replicates} pictures. An α of the pixel's \
-         own is noisy; that of {side} by {side} pixels is less so, but smears the edges of shadows.</p>\n\
+         divides by noise that f does not have.</p>\n\
+         <p>The exponent α of ȳ(H/x̄)<sup>α</sup> learns this from the draws. In the maps of α white is 1: h can be trusted; a \
+         colour is missing where its lamp is. In the maps of improvement red is a smaller error than the ratio's, blue a \
+         larger one, full colour a difference of {FULL} in RMSE, over {replicates} pictures. An α from the pixel's own draws \
+         is noisy; that of {side} by {side} pixels is less so, but smears the edges of shadows a little.</p>\n\
          <div class=\"pictures\">\n{figures}</div>\n\
          <div class=\"scroll\"><table>\n<thead><tr><th>estimator</th><th>RMSE in shadow</th><th>RMSE in the light</th></tr>\
          </thead>\n<tbody>\n{rows}</tbody></table></div>\n",

@@ -22,13 +22,13 @@ pub(super) fn section(exhibit: &TwoTechniquesMse) -> String {
     format!(
         "<h2>Two techniques, two auxiliaries</h2>\n\
          <p>f has two peaks, each with an auxiliary of its own, and a background that neither knows; two techniques draw from \
-         wider densities. One auxiliary alone knows half of f and harms, or hardly helps; both together divide the error of \
-         plain Monte Carlo's mean square by five and more, however they are put together, if the weights are learned or f is \
-         divided between them. With separate draws, weights by g hand a peak to the technique that happens to draw there, not \
-         to the auxiliary that knows it; the closed-form weights are as good as the best mixture of shared draws. N·MSE/F² for \
-         N draws in all, ± one standard error, and what theory expects for many; the gain is plain's MSE over each one's at N \
-         = {shown}.</p>\n\
-         <div class=\"panels\"><figure>{plot}<ul class=\"legend\">{legend}</ul></figure></div>\n\
+         wider densities. One auxiliary alone harms: it promises nothing where the other peak is. Both together gain \
+         several-fold, however they are put together, if the weights are learned or f is divided between them.</p>\n\
+         <p>With separate draws, weights by g hand a part of f to the technique that happens to draw there, not to the \
+         auxiliary that knows it; the closed-form weights do as well as the best mixture with shared draws. The table has \
+         N·MSE/F² for N draws in all, ± one standard error, and what theory expects for many; the gain is plain Monte Carlo's \
+         MSE over each one's at N = {shown}.</p>\n\
+         <div class=\"panels functions\"><figure>{plot}<ul class=\"legend\">{legend}</ul></figure></div>\n\
          <div class=\"scroll\"><table>\n<thead><tr><th>estimator</th><th class=\"left\">what it does</th>{sizes}\
          <th>N → ∞</th><th class=\"left\">gain</th></tr></thead>\n<tbody>\n\
          <tr><th colspan=\"{columns}\">all draws from the mixture (g₁ + g₂)/2</th></tr>\n{together}\
