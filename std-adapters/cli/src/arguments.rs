@@ -79,7 +79,7 @@ pub struct ReportArguments {
     /// Fewer replicates and smaller samples: at most 20 seconds
     #[arg(long)]
     pub quick: bool,
-    /// Only this problem (repeatable; see `ratiocv list`)
+    /// Only this problem, and no exhibits (repeatable; see `ratiocv list`)
     #[arg(long = "problem", value_name = "NAME", value_parser = problems(), hide_possible_values = true)]
     pub problems: Vec<Problem>,
     /// Only this estimator, beside mc (repeatable; see `ratiocv list`)

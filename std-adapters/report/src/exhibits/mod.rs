@@ -1,4 +1,12 @@
 //! What a comparison of run times cannot show. One file each: what is measured, and the numbers.
+//!
+//! ```no_run
+//! let report = ratiocv_report::run(&ratiocv_report::Options::default(), &())?;
+//! if let Some(exhibits) = &report.exhibits {
+//!     println!("the bias of a ratio inside an integral tends to {:?}", exhibits.nested.limit);
+//! }
+//! # Ok::<(), ratiocv_report::Error>(())
+//! ```
 
 mod floor;
 mod nested;

@@ -52,26 +52,26 @@ const DRAWS: [u64; 3] = [16, 64, 256];
 const TOTAL: u64 = 1 << 20;
 const QUICK_TOTAL: u64 = 1 << 18;
 
-/// Id, what it does, whether draws are shared.
-const COMBINATIONS: [(&str, &str, bool); COUNT] = [
-    ("mc", "no auxiliary", true),
-    ("ratio_1", "ratio on h₁ alone", true),
-    ("ratio_2", "ratio on h₂ alone", true),
-    ("random_mixture_equal", "ratio on (h₁ + h₂)/2", true),
-    ("random_mixture", "ratio on the best mixture of h₁ and h₂, weights learned", true),
-    ("optimal_defensive_ratio", "the same with g as a third: the difference again, unless a weight is clamped", true),
-    ("deterministic_mixture_balance", "two ratios, f divided by the balance heuristic on h", true),
-    ("deterministic_mixture_power", "two ratios, f divided by the power heuristic on h", true),
-    ("multiple_regression_ratio", "product of both ratios, exponents learned", true),
-    ("difference", "difference control variate, coefficients learned", true),
-    ("separate_mc_balance", "no auxiliary: multiple importance sampling, balance heuristic", false),
-    ("separate_balance_on_g", "two ratios, f divided by the balance heuristic on g", false),
-    ("separate_balance_on_h", "two ratios, f divided by the balance heuristic on h", false),
-    ("separate_optimal", "two ratios, f divided by the closed-form optimal weights", false),
+/// Id, and what it does: first those of shared draws.
+const COMBINATIONS: [(&str, &str); COUNT] = [
+    ("mc", "no auxiliary"),
+    ("ratio_1", "ratio on h₁ alone"),
+    ("ratio_2", "ratio on h₂ alone"),
+    ("random_mixture_equal", "ratio on (h₁ + h₂)/2"),
+    ("random_mixture", "ratio on the best mixture of h₁ and h₂, weights learned"),
+    ("optimal_defensive_ratio", "the same with g as a third: the difference again, unless a weight is clamped"),
+    ("deterministic_mixture_balance", "two ratios, f divided by the balance heuristic on h"),
+    ("deterministic_mixture_power", "two ratios, f divided by the power heuristic on h"),
+    ("multiple_regression_ratio", "product of both ratios, exponents learned"),
+    ("difference", "difference control variate, coefficients learned"),
+    ("separate_mc_balance", "no auxiliary: multiple importance sampling, balance heuristic"),
+    ("separate_balance_on_g", "two ratios, f divided by the balance heuristic on g"),
+    ("separate_balance_on_h", "two ratios, f divided by the balance heuristic on h"),
+    ("separate_optimal", "two ratios, f divided by the closed-form optimal weights"),
 ];
 const COUNT: usize = 14;
-/// Where separate draws begin.
-const SEPARATE: usize = 10;
+/// How many of them have shared draws.
+const SHARED: usize = 10;
 
 /// The weights by which f is divided among the techniques.
 #[derive(Clone, Copy, Debug)]
@@ -86,7 +86,7 @@ impl Division {
     }
 
     /// u_k = w_k f of each way of separate draws, in the order of the list.
-    fn parts(&self, at: &Functions) -> [[f64; 2]; COUNT - SEPARATE] {
+    fn parts(&self, at: &Functions) -> [[f64; 2]; COUNT - SHARED] {
         let on = |functions| Self::by(PowerHeuristic::BALANCE, functions).map(|w| w * at.f);
         [on(&at.g), on(&at.g), on(&at.h), self.optimal.parts(at.f, at.h, at.g)]
     }
@@ -108,10 +108,11 @@ impl TwoTechniquesMse {
         let mut estimators: Vec<Combination> = COMBINATIONS
             .iter()
             .zip(predicted)
-            .map(|(&(estimator, about, shared), predicted)| Combination {
+            .enumerate()
+            .map(|(number, (&(estimator, about), predicted))| Combination {
                 estimator,
                 about,
-                shared,
+                shared: number < SHARED,
                 predicted,
                 measured: vec![],
                 bias: vec![],
@@ -162,7 +163,7 @@ fn estimates(problem: &TwoTechniques, division: &Division, draws: u64, rng: &mut
             mixture.add(Pairs::weighted(draw, Division::by(heuristic, &at.h)));
         }
     }
-    let mut separate = [[Sums::<f64>::default(); 2]; COUNT - SEPARATE];
+    let mut separate = [[Sums::<f64>::default(); 2]; COUNT - SHARED];
     for k in 0..2 {
         for _ in 0..draws / 2 {
             let at = problem.at(problem.draw(k, unit_interval(rng)));
@@ -271,7 +272,7 @@ mod tests {
             assert!(libm::fabs(bias) <= 5.0 * error + 0.01, "{estimator}: {bias}");
         }
         let predicted: Vec<f64> = exhibit.estimators.iter().map(|combination| combination.predicted).collect();
-        let least = predicted[SEPARATE..].iter().copied().fold(f64::INFINITY, f64::min);
+        let least = predicted[SHARED..].iter().copied().fold(f64::INFINITY, f64::min);
         assert_eq!(predicted[COUNT - 1], least);
         assert!(predicted[9] <= predicted[4] && predicted[4] <= predicted[6] && predicted[6] < predicted[0] / 3.0);
     }
