@@ -10,7 +10,8 @@ fn report() -> &'static Report {
     static REPORT: OnceLock<Report> = OnceLock::new();
     REPORT.get_or_init(|| {
         let problems = ["well-correlated", "three-lights"].iter().filter_map(|id| Problem::from_id(id)).collect();
-        let options = Options { problems, seed: 3, budget_seconds: 1.0, quick: true, ..Options::default() };
+        let options =
+            Options { problems, seed: 3, budget_seconds: 1.0, quick: true, exhibits: false, ..Options::default() };
         run(&options, &()).unwrap()
     })
 }
