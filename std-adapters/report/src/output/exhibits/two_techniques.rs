@@ -2,7 +2,6 @@
 
 use crate::exhibits::{Combination, TwoTechniquesMse};
 use crate::output::plots::{techniques, techniques_legend};
-use crate::output::words::short;
 
 /// Draws, among those measured, at which gains are shown.
 const SHOWN: usize = 1;
@@ -27,10 +26,10 @@ pub(super) fn section(exhibit: &TwoTechniquesMse) -> String {
          <p>With separate draws, weights by g hand a part of f to the technique that happens to draw there, not to the \
          auxiliary that knows it; the closed-form weights do as well as the best mixture with shared draws. The table has \
          N·MSE/F² for N draws in all, ± one standard error, and what theory expects for many; the gain is plain Monte Carlo's \
-         MSE over each one's at N = {shown}.</p>\n\
+         MSE over each one's at N&nbsp;=&nbsp;{shown}.</p>\n\
          <div class=\"panels functions\"><figure>{plot}<ul class=\"legend\">{legend}</ul></figure></div>\n\
-         <div class=\"scroll\"><table>\n<thead><tr><th>estimator</th><th class=\"left\">what it does</th>{sizes}\
-         <th>N → ∞</th><th class=\"left\">gain</th></tr></thead>\n<tbody>\n\
+         <div class=\"scroll\"><table>\n<thead><tr><th>estimator</th><th class=\"left\">gain</th>{sizes}<th>N → ∞</th>\
+         <th class=\"left\">what it does</th></tr></thead>\n<tbody>\n\
          <tr><th colspan=\"{columns}\">all draws from the mixture (g₁ + g₂)/2</th></tr>\n{together}\
          <tr><th colspan=\"{columns}\">half of the draws from each technique</th></tr>\n{apart}\
          </tbody></table></div>\n",
@@ -45,16 +44,13 @@ fn row(combination: &Combination, plain: f64) -> String {
     let measured: String = combination
         .measured
         .iter()
-        .map(|(mse, error)| format!("<td>{} <span class=\"soft\">± {}</span></td>", short(*mse), short(*error)))
+        .map(|(mse, error)| format!("<td>{mse:.3} <span class=\"soft\">± {error:.3}</span></td>"))
         .collect();
     let gain = plain / combination.measured[SHOWN].0;
     let width = 100.0 * (gain / FULL).min(1.0);
     format!(
-        "<tr><td><code>{}</code></td><td class=\"left\">{}</td>{measured}<td>{}</td><td class=\"left gain\">\
-         <i style=\"width:{width:.1}%\"></i><b>{}</b></td></tr>\n",
-        combination.estimator,
-        combination.about,
-        short(combination.predicted),
-        short(gain),
+        "<tr><td><code>{}</code></td><td class=\"left gain\"><i style=\"width:{width:.1}%\"></i><b>{gain:.2}</b></td>{measured}\
+         <td>{:.3}</td><td class=\"left about\">{}</td></tr>\n",
+        combination.estimator, combination.predicted, combination.about,
     )
 }
