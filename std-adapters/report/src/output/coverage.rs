@@ -9,11 +9,11 @@ use core::fmt::Write;
 
 /// Classes of the style sheet, each for shares from its first number on, and what they mean.
 const SHADES: [(f64, &str, &str); 6] = [
-    (0.98, "c-wide", "98 % or more: exact, or wider than need be"),
-    (0.93, "c-good", "93 %"),
-    (0.9, "c-fair", "90 %"),
-    (0.8, "c-low", "80 %"),
-    (0.6, "c-poor", "60 %"),
+    (0.98, "c-wide", "98 % and more: exact, or wider than need be"),
+    (0.93, "c-good", "from 93 %"),
+    (0.9, "c-fair", "from 90 %"),
+    (0.8, "c-low", "from 80 %"),
+    (0.6, "c-poor", "from 60 %"),
     (0.0, "c-bad", "less"),
 ];
 
