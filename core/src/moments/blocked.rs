@@ -247,7 +247,8 @@ impl<V: Lanes, B: Kernel> Moments for Blocked<V, B> {
     }
     #[inline]
     fn channel(&self, channel: usize) -> Self::Channel {
-        self.state().channel(channel)
+        // Closed moments are read in place: a copy of all lanes for each of them would cost their square.
+        if self.open == 0 { self.state.channel(channel) } else { self.state().channel(channel) }
     }
 }
 

@@ -108,7 +108,10 @@ impl<W: Lanes<Scalar = f64>, const G: usize, const K: usize> State for GroupsSta
         }
     }
     fn channel(&self, channel: usize) -> GroupsState<f64, G, K> {
-        GroupsState { means: self.means.map(|mean| mean.map(|lanes| lanes.get(channel))) }
+        // By reference: mapping the arrays would copy all lanes.
+        let of =
+            |mean: &Draw<W, K>| Draw { f: mean.f.get(channel), h: core::array::from_fn(|k| mean.h[k].get(channel)) };
+        GroupsState { means: core::array::from_fn(|group| of(&self.means[group])) }
     }
 }
 
