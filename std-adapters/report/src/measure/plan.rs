@@ -39,7 +39,7 @@ const INTERVAL_NANOSECONDS: f64 = 1.5e5;
 /// Nominal cost of one replicate: all estimators from the same draws.
 fn replicate_nanoseconds(draws: u64, channels: usize) -> f64 {
     let channels = channels as f64;
-    draws as f64 * (60.0 + 40.0 * channels) + 2500.0 + 1500.0 * channels
+    draws as f64 * (75.0 + 50.0 * channels) + 5000.0 + 3500.0 * channels
 }
 
 /// Nominal cost of one estimate of one estimator.

@@ -30,12 +30,12 @@ fn rows(table: &str) -> Vec<&'static str> {
 
 #[test]
 fn intervals_of_the_mean_cover_and_those_of_an_inconsistent_estimator_miss() {
-    // 256 draws of a smooth integrand: 0.95 to within 0.005, and four standard errors (alpha = 6e-5) of 3167
-    // replicates, 0.0155.
-    assert_eq!(report().problems[0].methods[0].points[7].replicates, 3167);
+    // 256 draws of a smooth integrand: 0.95 to within 0.005, and four standard errors (alpha = 6e-5) of 2314
+    // replicates, 0.0181.
+    assert_eq!(report().problems[0].methods[0].points[7].replicates, 2314);
     for id in ["mc", "ratio", "mickey"] {
         let share = share(0, id, 256);
-        assert!((share - 0.95).abs() <= 0.0205, "{id}: {share}");
+        assert!((share - 0.95).abs() <= 0.0231, "{id}: {share}");
     }
     // A bias of many standard errors.
     assert!(share(0, "mean_of_ratios", 256) <= 0.02);
