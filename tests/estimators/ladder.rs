@@ -14,6 +14,17 @@ pub(crate) const ASYMMETRIC: [(f64, f64); 4] = [(1.0, 1.0), (2.0, 3.0), (4.0, 2.
 /// The known integral for [`ASYMMETRIC`].
 pub(crate) const INTEGRAL: f64 = 3.0;
 
+/// f = 3, 4, 6, 11 and h = 1, 2, 2, 5, with H = 4: f̄ = 6, h̄ = 5/2, s_xx = 3, s_xy = 6, s_yy = 38/3, so that
+/// β̂ = 2, of which shrinkage leaves 35/18: 1 − s²/(β̂²·Σ(h − h̄)²) = 1 − 1/36.
+pub(crate) const CORRELATED: [(f64, f64); 4] = [(3.0, 1.0), (4.0, 2.0), (6.0, 2.0), (11.0, 5.0)];
+/// The known integral for [`CORRELATED`].
+pub(crate) const INTEGRAL_OF_CORRELATED: f64 = 4.0;
+
+/// Draws that an auxiliary explains in part, so that coefficients that are fitted to them are not 0.
+fn explained_in_part(count: u32) -> impl Iterator<Item = (f64, f64)> {
+    (0..count).map(|i| (i * 7 % 31, i * 11 % 23)).map(|(a, b)| (f64::from(a) + 0.5 * f64::from(b), f64::from(b)))
+}
+
 /// The estimate from draws, whatever their number.
 pub(crate) fn run<E: Runs>(estimator: E, draws: &[(f64, f64)], integral: f64) -> ChannelEstimate {
     let integrals = Integrals::new([integral]);
@@ -48,13 +59,18 @@ pub(crate) fn one_draw<E: Runs>(estimator: E, value: f64) {
     assert_eq!(strict.is_err(), E::MIN_DRAWS > 1);
 }
 
+/// The jackknife takes differences of sums of up to eight times their size, and makes error bars of means.
+fn rounding<E: Runs>() -> f64 {
+    if E::ID == "jackknife" { 16.0 } else { 1.0 }
+}
+
 /// Constants: the exact answer, error 0; to the bit where h = H.
 pub(crate) fn constant<E: Runs>(estimator: E) {
     for count in [2, 3, 64, 65, 1000] {
         let same = run(estimator, &vec![(0.1, 0.7); count], 0.7);
         // Group sums of a constant are rounded; everything else is exact.
-        assert_close(same.value, 0.1, 2e-16, "h = H");
-        assert_close(same.std_error, 0.0, 1e-17, "error of a constant");
+        assert_close(same.value, 0.1, 2e-16 * rounding::<E>(), "h = H");
+        assert_close(same.std_error, 0.0, 1e-17 * rounding::<E>(), "error of a constant");
         assert!(!same.flags.fell_back() && !same.flags.contains(Flags::AUX_MISMATCH), "{}", same.flags);
     }
 }
@@ -64,7 +80,7 @@ pub(crate) fn proportional<E: Runs>(estimator: E) {
     let draws: Vec<_> = (0..200).map(|i| f64::from(i * i % 37) / 16.0 + 0.25).map(|h| (2.0 * h, h)).collect();
     let exact = run(estimator, &draws, INTEGRAL);
     assert_close(exact.value, 2.0 * INTEGRAL, 1e-14, "f = 2h");
-    assert_close(exact.std_error, 0.0, 1e-15, "error of f = 2h");
+    assert_close(exact.std_error, 0.0, 1e-15 * rounding::<E>(), "error of f = 2h");
 }
 
 /// [`ASYMMETRIC`]: `value` ± `std_error`, worked out by hand; and on the defensive auxiliary the
@@ -73,13 +89,26 @@ pub(crate) fn asymmetric<E: Runs>(estimator: E, value: f64, std_error: f64)
 where
     ratiocv_core::Defensive<E>: Runs,
 {
-    let ours = run(estimator, &ASYMMETRIC, INTEGRAL);
+    by_hand(estimator, &ASYMMETRIC, INTEGRAL, value, std_error);
+    defended(estimator, &ASYMMETRIC, INTEGRAL);
+}
+
+/// `value` ± `std_error`, worked out by hand.
+pub(crate) fn by_hand<E: Runs>(estimator: E, draws: &[(f64, f64)], integral: f64, value: f64, std_error: f64) {
+    let ours = run(estimator, draws, integral);
     assert_close(ours.value, value, 4e-15 * value, "value");
     assert_close(ours.std_error, std_error, 1e-6, "standard error");
+}
+
+/// On the defensive auxiliary the estimate is that of the raw estimator on draws of h′.
+pub(crate) fn defended<E: Runs>(estimator: E, draws: &[(f64, f64)], integral: f64)
+where
+    ratiocv_core::Defensive<E>: Runs,
+{
     let weight = 0.125;
-    let mixed = ASYMMETRIC.map(|(f, h)| (f, weight * INTEGRAL + (1.0 - weight) * h));
+    let mixed: Vec<_> = draws.iter().map(|(f, h)| (*f, weight * integral + (1.0 - weight) * h)).collect();
     let (defensive, right) =
-        (run(estimator.defensive(weight).unwrap(), &ASYMMETRIC, INTEGRAL), run(estimator, &mixed, INTEGRAL));
+        (run(estimator.defensive(weight).unwrap(), draws, integral), run(estimator, &mixed, integral));
     assert_close(defensive.value, right.value, 4e-15 * right.value, "defensive value");
     assert_close(defensive.std_error, right.std_error, 4e-15 * right.value, "defensive error");
     assert_eq!(defensive.flags, right.flags);
@@ -87,7 +116,7 @@ where
 
 /// The value tier gives the value of the error-bar tier, however it is split, and no error bar.
 pub(crate) fn value_tier<E: Runs + Estimator<<E::Value<f64> as Moments>::Channel>>(estimator: E) {
-    let draws: Vec<_> = (0..150).map(|i| (f64::from(i * 7 % 31) + 1.0, f64::from(i * 11 % 23) + 2.0)).collect();
+    let draws: Vec<_> = explained_in_part(150).map(|(f, h)| (f + 1.0, h + 2.0)).collect();
     let right = run(estimator, &draws, INTEGRAL);
     let integrals = Integrals::new([INTEGRAL]);
     for at in [0, 1, 17, 75, 150] {
@@ -101,23 +130,24 @@ pub(crate) fn value_tier<E: Runs + Estimator<<E::Value<f64> as Moments>::Channel
         let ours = Estimator::<<E::Value<f64> as Moments>::Channel>::estimate(&estimator, &moments, &integrals);
         let ours = ours.expect("enough draws");
         assert_close(ours.value, right.value, 1e-14 * right.value.abs(), &format!("value tier, split at {at}"));
-        let squares_are_values = matches!(E::ID, "beale" | "tin");
-        assert_eq!(ours.std_error.is_nan(), !squares_are_values, "{}", ours.std_error);
+        // Where the value takes all that the error bar takes there is but one tier.
+        let one_tier = size_of::<E::Value<f64>>() == size_of::<E::ErrorBar<f64>>();
+        assert_eq!(ours.std_error.is_nan(), !one_tier, "{}", ours.std_error);
     }
 }
 
 /// f and h 1e9 up: the answer keeps all its digits, and the error bar as many as the draws allow.
 pub(crate) fn offset<E: Runs>(estimator: E, draws_alike: impl Fn(&[(f64, f64)], f64) -> (f64, f64)) {
-    let up: Vec<_> = (0..300).map(|i| (1e9 + f64::from(i * 7 % 31), 1e9 + f64::from(i * 11 % 23))).collect();
-    let ours = run(estimator, &up, 1e9 + 11.0);
-    let (value, std_error) = draws_alike(&up, 1e9 + 11.0);
-    assert_close(ours.value, value, 1e-6, "value at 1e9");
-    assert_close(ours.std_error, std_error, 1e-6 * std_error, "error at 1e9");
+    let up: Vec<_> = explained_in_part(300).map(|(f, h)| (1e9 + f, 1e9 + h)).collect();
+    let ours = run(estimator, &up, 1e9 + 10.0);
+    let (value, std_error) = draws_alike(&up, 1e9 + 10.0);
+    assert_close(ours.value, value, 1e-6 * rounding::<E>(), "value at 1e9");
+    assert_close(ours.std_error, std_error, 1e-6 * rounding::<E>() * std_error, "error at 1e9");
 }
 
 /// Any split, merged: the same estimate to 1e-14.
 pub(crate) fn split_everywhere<E: Runs>(estimator: E) {
-    let draws: Vec<_> = (0..150).map(|i| (f64::from(i * 7 % 31) + 1.0, f64::from(i * 11 % 23) + 2.0)).collect();
+    let draws: Vec<_> = explained_in_part(150).map(|(f, h)| (f + 1.0, h + 2.0)).collect();
     let whole = run(estimator, &draws, INTEGRAL);
     for at in 0..=draws.len() {
         let (earlier, later) = draws.split_at(at);

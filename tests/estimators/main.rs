@@ -2,13 +2,22 @@
 //! constant, asymmetric draws with an answer worked out by hand, offset 1e9, split at every index,
 //! numbers that are hardly numbers, denominators near zero.
 
+mod fitted;
 mod ladder;
 
 mod beale;
+mod choose;
+mod cross_fitted;
+mod difference;
+mod fixed;
 mod hartley_ross;
+mod jackknife;
 mod mean_of_ratios;
 mod mickey;
+mod optimal_defensive;
 mod plain;
 mod quenouille;
+mod random_mixture;
 mod ratio_of_means;
+mod regression_ratio;
 mod tin;

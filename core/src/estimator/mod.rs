@@ -14,6 +14,7 @@ mod hartley_ross;
 mod jackknife;
 mod mean_of_ratios;
 mod mickey;
+mod nonnegative;
 mod optimal_defensive;
 mod plain;
 mod quenouille;
@@ -216,9 +217,4 @@ pub(crate) fn enough_draws<E: Reads<K>, const K: usize>(count: u64) -> Result<()
     } else {
         Err(Error::TooFewDraws { estimator: E::ID, needed: E::MIN_DRAWS, got: count })
     }
-}
-
-/// The index of the most negative weight, if any is negative.
-fn most_negative<const K: usize>(weights: &[f64; K]) -> Option<usize> {
-    (0..K).filter(|k| weights[*k] < 0.0).min_by(|i, j| weights[*i].total_cmp(&weights[*j]))
 }

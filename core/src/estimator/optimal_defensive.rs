@@ -2,6 +2,7 @@
 
 use crate::estimate::ChannelEstimate;
 use crate::estimator::fixed::fits_its_own_draws;
+use crate::estimator::nonnegative::nonnegative;
 use crate::estimator::{
     Coefficients, Combined, Estimator, Fit, Fixed, Mickey, RatioOfMeans, Regression, Sample, WithCoefficients,
 };
@@ -14,8 +15,8 @@ use crate::planted::planted;
 /// A mixture with the proposal g as the 0-th auxiliary. For one auxiliary and a = α* = C11/C20 in
 /// \[0, 1 − ε\] the first-order bias vanishes *and* the MSE is that of the optimal difference control
 /// variate; outside, the clamp loses: take [`Difference`](crate::Difference). a_k = β̂_k·H_k/F̂, F̂ the
-/// regression estimate, learned from the draws and projected on a ≥ 0, a_0 ≥ `floor`, so that denominators are positive where every h
-/// is. With [`Mickey`] on it and a given, or [`CrossFitted`](crate::CrossFitted), it is exactly unbiased.
+/// regression estimate, learned from the draws: the best a ≥ 0, then scaled down to a_0 ≥ `floor`, so that
+/// denominators are positive where every h is (ALPHA where either acts). With [`Mickey`] on it and a given, or [`CrossFitted`](crate::CrossFitted), it is exactly unbiased.
 ///
 /// ```
 /// use ratiocv_core::{moments::{Accumulate, Comoments}, Draw, Estimator, Integrals, OptimalDefensive};
@@ -71,16 +72,16 @@ where
     E: for<'a> Estimator<Combined<'a, S, K>>,
 {
     fn fit(&self, sample: &Sample<'_, S>, integrals: &[f64; K]) -> Coefficients<K> {
-        let (mut among, mean) = ([true; K], self.regression.estimate(sample, integrals));
-        let weights_among = |among: &[bool; K]| {
-            let beta = self.regression.fit_among(sample, among);
+        let mean = self.regression.estimate(sample, integrals);
+        let weights_among = |regression: &Regression, among: &[bool; K]| {
+            let beta = regression.fit_among(sample, among);
             beta.map(|k| if beta.values[k] == 0.0 { 0.0 } else { beta.values[k] * (integrals[k] / mean) })
         };
-        let mut weights = weights_among(&among);
-        // Of negative weights the most negative is left out, and the others are fitted anew.
-        while let Some(worst) = super::most_negative(&weights.values) {
-            among[worst] = false;
-            let again = weights_among(&among);
+        let mut weights = weights_among(&self.regression, &[true; K]);
+        if weights.values.iter().any(|weight| *weight < 0.0) {
+            let free = Regression { shrink: false, ..self.regression };
+            let among = nonnegative(|among| weights_among(&free, among).values);
+            let again = weights_among(&self.regression, &among);
             weights = Coefficients { flags: again.flags | weights.flags | Flags::ALPHA, ..again };
         }
         if weights.values.iter().any(|weight| !weight.is_finite()) {

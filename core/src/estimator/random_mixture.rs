@@ -2,6 +2,7 @@
 
 use crate::estimate::ChannelEstimate;
 use crate::estimator::fixed::fits_its_own_draws;
+use crate::estimator::nonnegative::nonnegative;
 use crate::estimator::{
     Coefficients, Combined, Estimator, Fit, Fixed, Mickey, RatioOfMeans, Regression, Sample, WithCoefficients,
 };
@@ -63,12 +64,11 @@ where
     E: for<'a> Estimator<Combined<'a, S, K>>,
 {
     fn fit(&self, sample: &Sample<'_, S>, integrals: &[f64; K]) -> Coefficients<K> {
-        let mut among = [true; K];
-        let mut weights = self.weights_among(sample, integrals, &among);
-        // Of negative weights the most negative is left out, and the others are fitted anew.
-        while let Some(worst) = super::most_negative(&weights.values) {
-            among[worst] = false;
-            let again = self.weights_among(sample, integrals, &among);
+        let mut weights = self.weights_among(&self.regression, sample, integrals, &[true; K]);
+        if weights.values.iter().any(|weight| *weight < 0.0) {
+            let free = Regression { shrink: false, ..self.regression };
+            let among = nonnegative(|among| self.weights_among(&free, sample, integrals, among).values);
+            let again = self.weights_among(&self.regression, sample, integrals, &among);
             weights = Coefficients { flags: again.flags | weights.flags | Flags::ALPHA, ..again };
         }
         weights
@@ -82,6 +82,7 @@ impl<E> RandomMixture<E> {
     /// u_k − u_b from one auxiliary b of them, u = x/H.
     fn weights_among<S: HasComoments<K>, const K: usize>(
         &self,
+        regression: &Regression,
         sample: &Sample<'_, S>,
         integrals: &[f64; K],
         among: &[bool; K],
@@ -104,14 +105,12 @@ impl<E> RandomMixture<E> {
         let rank = solution.determined.iter().sum::<f64>();
         let freedom = sample.count as f64 - 1.0 - rank;
         let explained: f64 = (0..K).map(|k| solution.x[k] * right[k]).sum();
-        let ee = spread.ff() / mean / mean
-            + (0..K).map(|k| equal[k] * ((0..K).map(|j| equal[j] * uu(k, j)).sum::<f64>() - 2.0 * yu(k))).sum::<f64>();
-        let kept = self.regression.kept(explained, ee - explained, rank, freedom);
         let lost: f64 = solution.x.iter().sum();
-        let values = array::from_fn(|k| {
-            equal[k]
-                + kept * planted!("random_mixture_base": if k == base { -lost } else { solution.x[k] }, solution.x[k])
-        });
+        let change =
+            |k: usize| planted!("random_mixture_base": if k == base { -lost } else { solution.x[k] }, solution.x[k]);
+        let c = array::from_fn(|k| if among[k] { mean * (equal[k] + change(k)) / integrals[k] } else { 0.0 });
+        let kept = regression.kept(explained, spread.about(&c) / mean / mean, rank, freedom);
+        let values = array::from_fn(|k| if among[k] { equal[k] + kept * change(k) } else { 0.0 });
         let lacks = (0..K).any(|k| among[k] && k != base && solution.determined[k] == 0.0);
         let flags = Flags::when(lacks, Flags::RANK);
         if sample.count < 2 || mean == 0.0 || values.iter().any(|weight: &f64| !weight.is_finite()) {

@@ -1,0 +1,58 @@
+use crate::fitted;
+use crate::ladder::{self, CORRELATED, INTEGRAL_OF_CORRELATED, run};
+use ratiocv_core::{Dependent, Flags, Regression, RegressionRatio};
+
+const REGRESSION_RATIO: RegressionRatio = RegressionRatio {
+    regression: Regression { dependent: Dependent::MinimumNorm, shrink: true },
+    clamp: (-1.0, 2.0),
+    undetermined: 0.0,
+};
+
+fn unshrunk() -> RegressionRatio {
+    RegressionRatio { regression: Regression { shrink: false, ..Regression::default() }, ..REGRESSION_RATIO }
+}
+
+ladder::ladder! {
+    REGRESSION_RATIO,
+    one draw 5.0,
+    by hand {
+        assert_eq!(REGRESSION_RATIO, RegressionRatio::default());
+        // α̂ = 35/18·(5/2)/6: 6·1.6^α̂. Its coefficient α̂ȳ/x̄ is the difference's, and so is its error.
+        let (value, std_error) = (6.0 * 1.6_f64.powf(175.0 / 216.0), (73.0_f64 / 144.0).sqrt());
+        ladder::by_hand(REGRESSION_RATIO, &CORRELATED, INTEGRAL_OF_CORRELATED, value, std_error);
+        ladder::defended(REGRESSION_RATIO, &CORRELATED, INTEGRAL_OF_CORRELATED);
+        let value = 6.0 * 1.6_f64.powf(5.0 / 6.0);
+        ladder::by_hand(unshrunk(), &CORRELATED, INTEGRAL_OF_CORRELATED, value, 0.5_f64.sqrt());
+    },
+    at 1e9 fitted::difference_at_1e9
+}
+
+#[test]
+fn proportional() {
+    ladder::proportional(REGRESSION_RATIO);
+}
+
+#[test]
+fn exponents_are_clamped() {
+    // β̂ = 2, x̄ = 5/2, ȳ = 6 − 5 = 1: α̂ = 5, clamped to 2: 1·1.6². Its error is that of c = 2·1/2.5.
+    let steep = CORRELATED.map(|(f, h)| (f - 5.0, h));
+    let clamped = run(unshrunk(), &steep, 4.0);
+    assert!((clamped.value - 2.56).abs() <= 1e-15 && clamped.flags.contains(Flags::ALPHA), "{clamped:?}");
+    // Σ(e − ē)² = 2 + 9(2 − 0.8)² over 3·4, ×2·3/2.
+    assert!((clamped.std_error - (14.96_f64 / 12.0 * 3.0).sqrt()).abs() <= 1e-14);
+    // Falling f: −5 becomes −1, the product estimator.
+    let falling = CORRELATED.map(|(f, h)| (7.0 - f, h));
+    let clamped = run(unshrunk(), &falling, 4.0);
+    assert!((clamped.value - 0.625).abs() <= 1e-15 && clamped.flags.contains(Flags::ALPHA), "{clamped:?}");
+    let wide = RegressionRatio { clamp: (f64::NEG_INFINITY, f64::INFINITY), ..unshrunk() };
+    let free = run(wide, &steep, 4.0);
+    assert!((free.value - 1.6_f64.powi(5)).abs() <= 1e-13 && !free.flags.contains(Flags::ALPHA), "{free:?}");
+}
+
+#[test]
+fn an_auxiliary_that_is_constant_in_the_draws_gets_the_exponent_for_that() {
+    let draws = [(1.0, 2.0), (3.0, 2.0), (5.0, 2.0)];
+    assert_eq!(run(REGRESSION_RATIO, &draws, 4.0).value, 3.0);
+    let ratio = RegressionRatio { undetermined: 1.0, ..REGRESSION_RATIO };
+    assert_eq!(run(ratio, &draws, 4.0).value, 6.0);
+}
