@@ -106,7 +106,8 @@ fn odd_numbers_of_draws() {
 #[test]
 fn a_blind_fold() {
     let estimate = |odd: f64| -> ChannelEstimate {
-        let draws: Vec<_> = (0..8).map(|i| (if i % 2 == 0 { f64::from(i) } else { odd }, 1.0 + f64::from(i))).collect();
+        let f = |i: i32| if i % 2 == 0 { f64::from(i) } else { odd };
+        let draws: Vec<_> = (0..8).map(|i| (f(i), 1.0 + f64::from(i))).collect();
         run(CrossFitted(Difference::default()), &draws, 4.0)
     };
     let half = estimate(0.0);

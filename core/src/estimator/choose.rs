@@ -23,8 +23,8 @@ use crate::planted::planted;
 /// the three on all problems of `ratiocv-report` but one of that kind (15 % at 64 draws, 5 % at 256); from
 /// 16 draws on it is at most 10 % above plain's (`std-adapters/report/tests/choose.rs`).
 ///
-/// Deterministic; ties go to the earlier. Consistent, since each is; a choice that depends on the draws
-/// keeps no estimator unbiased. [`CrossFitted<Choose>`](crate::CrossFitted) chooses in one fold for the
+/// Deterministic; ties, and what differs by rounding alone, go to the earlier. Consistent, since each is;
+/// a choice that depends on the draws keeps no estimator unbiased. [`CrossFitted<Choose>`](crate::CrossFitted) chooses in one fold for the
 /// other: **exactly unbiased**, with the first-order MSE of what it chose. Below 4 draws: plain.
 ///
 /// ```
@@ -84,10 +84,10 @@ impl Choose {
         if sample.count < 4 || !spread.ff().is_finite() {
             return best;
         }
-        let mut least = spread.ff();
+        let (mut least, floor) = (spread.ff(), spread.rounding_floor(sample.epsilon));
         let mut consider = |choice: Choice, coefficients: Coefficients<K>, cost: f64| {
             let error = squares(&spread, &coefficients.values) * cost;
-            if error < least {
+            if error < least - floor {
                 least = error;
                 best = (choice, coefficients);
             }

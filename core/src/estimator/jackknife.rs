@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::estimate::ChannelEstimate;
 use crate::estimator::remarks::Remarks;
 use crate::estimator::{Estimator, Sample, enough_draws, reads};
+use crate::flags::Flags;
 use crate::moments::{Group, Groups, HasGroups, HasMeans};
 use crate::planted::planted;
 use crate::scaled::quotient_times;
@@ -17,7 +18,8 @@ use crate::scaled::quotient_times;
 /// too. With 8 groups it has 7 degrees of freedom.
 ///
 /// Needs 2 draws; one falls back to the ratio of means. With fewer draws than groups each draw is a
-/// group. A Σx of 0 over all groups but one gives ȳ and DENOM_ZERO.
+/// group. A Σx of 0 over all groups but one gives ȳ and DENOM_ZERO. Group means of f that are all 0 are
+/// taken for NO_SUPPORT.
 ///
 /// ```
 /// use ratiocv_core::{moments::{Accumulate, Groups}, Draw, Estimator, Integrals, Jackknife};
@@ -40,12 +42,14 @@ impl<S: HasMeans + HasGroups> Estimator<S> for Jackknife {
         enough_draws::<Self, 1>(sample.count)
     }
     fn estimate_channel(&self, sample: &Sample<'_, S>, &[integral]: &[f64; 1]) -> ChannelEstimate {
-        let remarks = Remarks::with_auxiliary(sample, integral);
+        let group = |g: usize| sample.moments.group(sample.count, g);
+        // Group means tell as well as a spread would that every f was 0.
+        let unseen = sample.count > 0 && (0..sample.moments.groups()).all(|g| group(g).f == 0.0);
+        let remarks = Remarks::with_auxiliary(sample, integral).and(Flags::when(unseen, Flags::NO_SUPPORT));
         let ratio = remarks.ratio_of_means(integral);
         if sample.count < 2 || ratio.flags.fell_back() {
             return ratio;
         }
-        let group = |g: usize| sample.moments.group(sample.count, g);
         let without = |g: usize| {
             let (f, h) = others(sample.moments.groups(), g, group);
             (h != 0.0).then(|| quotient_times(f, h, integral))

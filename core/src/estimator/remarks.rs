@@ -172,12 +172,7 @@ impl<const K: usize> Remarks<K> {
             None => f64::NAN,
             Some(spread) => {
                 let squares = spread.about(c);
-                // What the rounding of sums over a block may leave of draws that are proportional but
-                // for rounding: over the 10⁴ blocks of f32 of tests/stiff, C7, the median is 2 unit
-                // roundoffs of the spread of f, the worst 36; 64 are allowed.
-                let scale = 32.0 * self.epsilon;
-                let fitted: f64 = (0..K).map(|k| spread.slope[k] * spread.slope[k] * spread.hh[k][k]).sum();
-                let floor = scale * scale * (spread.ee + fitted);
+                let floor = spread.rounding_floor(self.epsilon);
                 let below = squares > 0.0 && squares < floor;
                 flags |= Flags::when(below, Flags::ROUNDING);
                 let n = self.count as f64;

@@ -20,8 +20,8 @@ const SINGLES: u64 = 4;
 /// *Implemented by* the kernels of this folder; *called by* [`Blocked`] alone.
 ///
 /// # Laws
-/// [`Takes::open`], then [`Takes::add`] of `n` draws, then `close(n)`, yields the state of these
-/// draws. `fold` adds the sums of another part of the same block (same state, same first draw).
+/// `empty`, [`Takes::begin`], then [`Takes::add`] of `n` draws, then `close(n)`, yields the state of these
+/// draws. `fold` adds the sums of another part of the same block (same state, same beginning).
 /// Lanes never mix.
 ///
 /// # Implementing
@@ -44,8 +44,9 @@ pub trait Kernel: Copy {
 
 /// A [`Kernel`] for draws of type `D`.
 pub trait Takes<D>: Kernel {
-    /// An empty block for draws that follow `state`, the first of them `first`.
-    fn open(state: &Self::State, first: &D) -> Self;
+    /// Tells an empty block its first draw (`index` 0) and its second (1), which are still to be added, for
+    /// sums to be taken about.
+    fn begin(&mut self, index: usize, draw: &D);
     /// Adds the `index`-th draw of the block.
     fn add(&mut self, index: usize, draw: &D);
 }
@@ -179,7 +180,10 @@ impl<V, B: Kernel> Blocked<V, B> {
     where
         B: Takes<D>,
     {
-        let mut parts = [B::open(&self.state, &draws[0]); P];
+        let mut empty = B::empty(&self.state);
+        empty.begin(0, &draws[0]);
+        empty.begin(1, &draws[1]);
+        let mut parts = [empty; P];
         for (row, draws) in draws.as_chunks::<P>().0.iter().enumerate() {
             for (column, (part, draw)) in parts.iter_mut().zip(draws).enumerate() {
                 part.add(P * row + column, draw);
@@ -200,8 +204,11 @@ impl<V, B: Kernel> Blocked<V, B> {
 impl<V, D: Copy, B: Takes<D>> Accumulate<D> for Blocked<V, B> {
     #[inline(always)]
     fn add(&mut self, draw: D) {
-        if self.open == 0 {
-            self.block = B::open(&self.state, &draw);
+        if self.open < 2 {
+            if self.open == 0 {
+                self.block = B::empty(&self.state);
+            }
+            self.block.begin(self.open as usize, &draw);
         }
         self.block.add(self.open as usize, &draw);
         self.open += 1;

@@ -201,8 +201,10 @@ impl<V: Lanes, const K: usize> Kernel for ComomentsBlock<V, K> {
 
 impl<V: Lanes, const K: usize> Takes<Draw<V, K>> for ComomentsBlock<V, K> {
     #[inline(always)]
-    fn open(state: &Self::State, first: &Draw<V, K>) -> Self {
-        Self { shift: *first, ..Self::empty(state) }
+    fn begin(&mut self, index: usize, draw: &Draw<V, K>) {
+        if index == 0 {
+            self.shift = *draw;
+        }
     }
     #[inline(always)]
     fn add(&mut self, _: usize, draw: &Draw<V, K>) {

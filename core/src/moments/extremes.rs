@@ -78,9 +78,7 @@ impl<V: Lanes> Kernel for ExtremesBlock<V> {
 
 impl<V: Lanes> Takes<Draw<V>> for ExtremesBlock<V> {
     #[inline(always)]
-    fn open(state: &Self::State, _: &Draw<V>) -> Self {
-        Self::empty(state)
-    }
+    fn begin(&mut self, _: usize, _: &Draw<V>) {}
     #[inline(always)]
     fn add(&mut self, _: usize, draw: &Draw<V>) {
         let abs = |x: V| V::select(x.lt(V::ZERO), -x, x);

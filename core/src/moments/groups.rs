@@ -81,9 +81,7 @@ impl<V: Lanes, const G: usize, const K: usize> Kernel for GroupsBlock<V, G, K> {
 
 impl<V: Lanes, const G: usize, const K: usize> Takes<Draw<V, K>> for GroupsBlock<V, G, K> {
     #[inline(always)]
-    fn open(state: &Self::State, _: &Draw<V, K>) -> Self {
-        Self::empty(state)
-    }
+    fn begin(&mut self, _: usize, _: &Draw<V, K>) {}
     #[inline(always)]
     fn add(&mut self, index: usize, draw: &Draw<V, K>) {
         let sum = &mut self.sums[index % G];

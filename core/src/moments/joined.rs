@@ -50,7 +50,7 @@ impl Kernel for () {
 
 impl<D> Takes<D> for () {
     #[inline(always)]
-    fn open((): &(), _: &D) {}
+    fn begin(&mut self, _: usize, _: &D) {}
     #[inline(always)]
     fn add(&mut self, _: usize, _: &D) {}
 }
@@ -84,8 +84,10 @@ impl<B: Kernel, const L: usize> Kernel for [B; L] {
 
 impl<D, B: Takes<D>, const L: usize> Takes<D> for [B; L] {
     #[inline(always)]
-    fn open(state: &Self::State, first: &D) -> Self {
-        core::array::from_fn(|i| B::open(&state[i], first))
+    fn begin(&mut self, index: usize, draw: &D) {
+        for block in self {
+            block.begin(index, draw);
+        }
     }
     #[inline(always)]
     fn add(&mut self, index: usize, draw: &D) {
@@ -154,15 +156,13 @@ where
     F: Takes<D>,
 {
     #[inline(always)]
-    fn open(state: &Self::State, first: &D) -> Self {
-        Self {
-            base: B::open(&state.base, first),
-            ratios: R::open(&state.ratios, first),
-            groups: G::open(&state.groups, first),
-            extremes: E::open(&state.extremes, first),
-            third: T::open(&state.third, first),
-            folds: F::open(&state.folds, first),
-        }
+    fn begin(&mut self, index: usize, draw: &D) {
+        self.base.begin(index, draw);
+        self.ratios.begin(index, draw);
+        self.groups.begin(index, draw);
+        self.extremes.begin(index, draw);
+        self.third.begin(index, draw);
+        self.folds.begin(index, draw);
     }
     #[inline(always)]
     fn add(&mut self, index: usize, draw: &D) {

@@ -76,9 +76,7 @@ impl<V: Lanes, const K: usize, const G: usize> Kernel for PairsBlock<V, K, G> {
 
 impl<V: Lanes, const K: usize, const G: usize> Takes<Pairs<V, K>> for PairsBlock<V, K, G> {
     #[inline(always)]
-    fn open(state: &Self::State, _: &Pairs<V, K>) -> Self {
-        Self::empty(state)
-    }
+    fn begin(&mut self, _: usize, _: &Pairs<V, K>) {}
     #[inline(always)]
     fn add(&mut self, index: usize, pairs: &Pairs<V, K>) {
         for (groups, draw) in self.0.iter_mut().zip(&pairs.0) {

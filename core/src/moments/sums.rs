@@ -66,8 +66,10 @@ impl<V: Lanes, const K: usize> Kernel for SumsBlock<V, K> {
 
 impl<V: Lanes, const K: usize> Takes<Draw<V, K>> for SumsBlock<V, K> {
     #[inline(always)]
-    fn open(_: &Self::State, first: &Draw<V, K>) -> Self {
-        Self { shift: *first, sum: Draw::ZERO }
+    fn begin(&mut self, index: usize, draw: &Draw<V, K>) {
+        if index == 0 {
+            self.shift = *draw;
+        }
     }
     #[inline(always)]
     fn add(&mut self, _: usize, draw: &Draw<V, K>) {

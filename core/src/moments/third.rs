@@ -120,8 +120,10 @@ impl<V: Lanes> Kernel for ThirdBlock<V> {
 
 impl<V: Lanes> Takes<Draw<V>> for ThirdBlock<V> {
     #[inline(always)]
-    fn open(_: &Self::State, first: &Draw<V>) -> Self {
-        Self { shift: *first, sums: Powers::ZERO }
+    fn begin(&mut self, index: usize, draw: &Draw<V>) {
+        if index == 0 {
+            self.shift = *draw;
+        }
     }
     #[inline(always)]
     fn add(&mut self, _: usize, draw: &Draw<V>) {

@@ -140,13 +140,6 @@ impl<V: Lanes, const S: usize> Blocked<V, UnivariateBlock<RatioOf<V>, S>> {
     }
 }
 
-impl<Q: Quantity, const S: usize> UnivariateBlock<Q, S> {
-    #[inline(always)]
-    fn about(quantity: Q, shift: Q::Lanes) -> Self {
-        Self { quantity, shift, sum: Q::Lanes::ZERO, squares: [Q::Lanes::ZERO; S] }
-    }
-}
-
 impl<Q: Default, W: Lanes, const S: usize> Default for UnivariateState<Q, W, S> {
     fn default() -> Self {
         Self { quantity: Q::default(), anchor: W::ZERO, relative: W::ZERO, squares: [W::ZERO; S] }
@@ -159,7 +152,7 @@ impl<Q: Quantity, const S: usize> Kernel for UnivariateBlock<Q, S> {
 
     #[inline(always)]
     fn empty(state: &Self::State) -> Self {
-        Self::about(state.quantity, Q::Lanes::ZERO)
+        Self { quantity: state.quantity, shift: Q::Lanes::ZERO, sum: Q::Lanes::ZERO, squares: [Q::Lanes::ZERO; S] }
     }
     #[inline(always)]
     fn fold(&mut self, other: &Self) {
@@ -182,8 +175,10 @@ impl<Q: Quantity, const S: usize> Kernel for UnivariateBlock<Q, S> {
 
 impl<Q: Quantity, const S: usize> Takes<Q::Draw> for UnivariateBlock<Q, S> {
     #[inline(always)]
-    fn open(state: &Self::State, first: &Q::Draw) -> Self {
-        Self::about(state.quantity, state.quantity.of(first))
+    fn begin(&mut self, index: usize, draw: &Q::Draw) {
+        if index == 0 {
+            self.shift = self.quantity.of(draw);
+        }
     }
     #[inline(always)]
     fn add(&mut self, _: usize, draw: &Q::Draw) {
