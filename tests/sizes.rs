@@ -1,21 +1,23 @@
 //! Each estimator keeps only the moments that it reads: the table in the documentation, measured.
 
 use ratiocv_core::{
-    Beale, HartleyRoss, Lanes, MeanOfRatios, Mickey, Plain, Quenouille, RatioOfMeans, Reads, Spectrum, Tin,
+    Beale, Choose, CrossFitted, Difference, HartleyRoss, Jackknife, Lanes, MeanOfRatios, Mickey, OptimalDefensive,
+    Plain, Quenouille, RandomMixture, RatioOfMeans, Reads, RegressionRatio, Spectrum, Tin,
 };
 
-fn row<E: Reads<1>>(_: E) -> String {
-    fn bytes<E: Reads<1>, V: Lanes>() -> String {
+fn row<E: Reads<K>, const K: usize>(_: E) -> String {
+    fn bytes<E: Reads<K>, V: Lanes, const K: usize>() -> String {
         format!("{} | {}", size_of::<E::Value<V>>(), size_of::<E::ErrorBar<V>>())
     }
-    format!("| `{}` | {} | {} |\n", E::ID, bytes::<E, Spectrum<f32, 3>>(), bytes::<E, f64>())
+    let auxiliaries = if K == 1 { String::new() } else { format!(", {K} auxiliaries") };
+    format!("| `{}`{auxiliaries} | {} | {} |\n", E::ID, bytes::<E, Spectrum<f32, 3>, K>(), bytes::<E, f64, K>())
 }
 
 fn table() -> String {
     let head = "| estimator | RGB in `f32`: value | with error bar | one channel in `f64`: value | with error bar |\n\
                 |---|---|---|---|---|\n";
     let rows = [
-        row(Plain),
+        row::<_, 1>(Plain),
         row(RatioOfMeans),
         row(Quenouille),
         row(Beale),
@@ -23,6 +25,18 @@ fn table() -> String {
         row(MeanOfRatios),
         row(HartleyRoss),
         row(Mickey),
+        row(Jackknife),
+        row::<_, 1>(RegressionRatio::default()),
+        row::<_, 1>(Difference::default()),
+        row::<_, 2>(Difference::default()),
+        row::<_, 3>(Difference::default()),
+        row::<_, 1>(CrossFitted(Difference::default())),
+        row::<_, 1>(<OptimalDefensive>::default()),
+        row::<_, 1>(OptimalDefensive::of(Mickey)),
+        row::<_, 1>(CrossFitted(OptimalDefensive::of(Mickey))),
+        row::<_, 1>(Choose::default()),
+        row::<_, 1>(CrossFitted(Choose::default())),
+        row::<_, 2>(<RandomMixture>::default()),
     ];
     head.to_owned() + &rows.concat()
 }

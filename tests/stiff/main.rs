@@ -8,5 +8,7 @@ mod cancellation;
 mod cases;
 mod counts;
 mod denominators;
+mod fitted;
 mod range;
+mod several;
 mod zeros_and_nans;

@@ -17,7 +17,7 @@ use crate::planted::planted;
 /// here: at 8 draws an unshrunk β of 4 draws does more harm than good.
 ///
 /// The variance is Σ(n_f/N)²·Var_f, each about coefficients that its draws had no part in, so that it
-/// is not too small. Below 4 draws the error is unknown, and there is nothing to fit: ȳ.
+/// is not too small. Below 4 draws the error is unknown and nothing is fitted: ȳ, and ALPHA.
 ///
 /// ```
 /// use ratiocv_core::{moments::Accumulate, CrossFitted, Difference, Draw, Estimator, Integrals, Reads};
@@ -50,7 +50,9 @@ where
         };
         let estimate = |one: usize| {
             let other = planted!("cross_fitted_fold": 1 - one, one);
-            let learned = self.0.fit(&fold(other), integrals);
+            // A fold of one draw has estimates that no coefficients keep unbiased: below 4 draws nothing is learned.
+            let count = if planted!("cross_fitted_few": sample.count < 4, false) { 0 } else { fold(other).count };
+            let learned = self.0.fit(&Sample { count, ..fold(other) }, integrals);
             // They cost this fold no degree of freedom.
             let coefficients = Coefficients { parameters: 0.0, ..learned };
             self.0.estimate_with(&fold(one), integrals, &coefficients)

@@ -56,7 +56,8 @@ impl<S: HasComoments<K>, const K: usize> Estimator<S, K> for RatioOfIntegrals {
             return Remarks::without_auxiliary(sample).value(f64::NAN, &[0.0; K]);
         };
         // The integral of d is what its draws say: nothing to remark on.
-        let known: [f64; K] = core::array::from_fn(|k| if k == 0 && d != 0.0 { d } else { integrals[k] });
+        let of_d = if d.is_finite() && d != 0.0 { d } else { 1.0 };
+        let known: [f64; K] = core::array::from_fn(|k| if k == 0 { of_d } else { integrals[k] });
         let remarks = Remarks::with_auxiliaries(sample, &known);
         let undefined = ChannelEstimate { value: f64::NAN, std_error: f64::NAN, flags: remarks.flags() };
         if d == 0.0 {
