@@ -58,7 +58,8 @@ fn a11_a12_a_bad_integral_concerns_its_channel_alone() {
 fn a13_negative_auxiliaries_are_as_good() {
     let draws: Vec<_> = (0..30).map(|i| f64::from(i % 3 + 1)).map(|x| (x, -x)).collect();
     for (id, case) in all(&draws, -2.0) {
-        assert_close(case.value, 2.0, 1e-14, id);
+        // Mickey on 0.01 + 0.99h/H corrects what the means of its groups are off.
+        assert_close(case.value, 2.0, if id.contains("mickey") { 1e-4 } else { 1e-14 }, id);
         assert!(!case.flags.fell_back() && !case.flags.contains(Flags::NEGATIVE), "{id}: {case:?}");
     }
     // H = −3: 3, but for the floor of the optimal defensive: f̄ = 2, h̄/H = 2/3: 2/(0.01 + 0.66).
