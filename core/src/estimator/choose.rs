@@ -24,8 +24,9 @@ use crate::planted::planted;
 /// 16 draws on it is at most 10 % above plain's (`std-adapters/report/tests/choose.rs`).
 ///
 /// Deterministic; ties, and what differs by rounding alone, go to the earlier. Consistent, since each is;
-/// a choice that depends on the draws keeps no estimator unbiased. [`CrossFitted<Choose>`](crate::CrossFitted) chooses in one fold for the
-/// other: **exactly unbiased**, with the first-order MSE of what it chose. Below 4 draws: plain.
+/// a choice that depends on the draws keeps no estimator unbiased. [`CrossFitted<Choose>`](crate::CrossFitted)
+/// chooses in one fold for the other: **exactly unbiased**, with the first-order MSE of what it chose.
+/// Below 4 draws: plain.
 ///
 /// ```
 /// use ratiocv_core::{moments::{Accumulate, Comoments}, Choice, Choose, Draw, Integrals, Spectrum};

@@ -21,6 +21,9 @@ use crate::scaled::quotient_times;
 /// that is constant in the draws gets α = `undetermined`. Given ([`fixed`](RegressionRatio::fixed)) or
 /// learned elsewhere ([`Fit::learn`]), any real α will do.
 ///
+/// The error bar is that of the first-order form, and the distance between the two in quadrature: where f
+/// is affine in h nothing else is left.
+///
 /// x̄_k = 0 with α_k > 0 gives ȳ and DENOM_ZERO; a fractional power of a negative H_k/x̄_k gives ȳ and
 /// DENOM_SIGN.
 ///
@@ -129,6 +132,15 @@ impl<S: HasMeans<K>, const K: usize> WithCoefficients<S, K> for RegressionRatio 
             c[k] =
                 planted!("regression_ratio_coefficient": alpha, 1.0) * (means.f / if x == 0.0 { integral } else { x });
         }
-        remarks.value_with_fit(value, &c, coefficients.parameters)
+        let estimate = remarks.value_with_fit(value, &c, coefficients.parameters);
+        // The error bar is that of ȳ + Σc_k(H_k − x̄_k); how far the power is from it is known, and counts.
+        let linear = (0..K).filter(|k| c[*k] != 0.0).fold(means.f, |sum, k| sum + c[k] * (integrals[k] - means.h[k]));
+        let curvature = planted!("regression_ratio_curvature": value - linear, 0.0);
+        if estimate.flags.fell_back()
+            || coefficients.values.iter().all(|alpha| *alpha == 0.0 || (K == 1 && *alpha == 1.0))
+        {
+            return estimate;
+        }
+        ChannelEstimate { std_error: libm::hypot(estimate.std_error, curvature), ..estimate }
     }
 }

@@ -12,9 +12,9 @@ use core::fmt::Write;
 
 const STYLE: &str = include_str!("page.css");
 
-/// Enough estimators to tell the story and few enough to be told apart: Quenouille, Beale and Tin lie on the
-/// ratio's curve wherever errors, not biases, are drawn.
-const ERRORS: [&str; 6] = ["mc", "ratio", "beale", "mean_of_ratios", "hartley_ross", "mickey"];
+/// Enough estimators to tell the story and few enough to be told apart: Quenouille, Beale, Tin and the jackknife
+/// lie on the ratio's curve wherever errors, not biases, are drawn, and the other fitted ones on the difference's.
+const ERRORS: [&str; 6] = ["mc", "ratio", "difference", "mean_of_ratios", "hartley_ross", "mickey"];
 const DEFENSIVE: [&str; 6] = [
     "mc",
     "defensive_ratio",

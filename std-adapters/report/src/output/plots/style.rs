@@ -43,6 +43,7 @@ pub(crate) fn look(id: &str) -> Look {
         "tin" => (ORANGE, (2, 3), Mark::Cross),
         "mean_of_ratios" | "naive_ratio" => (PURPLE, (9, 4), Mark::Diamond),
         "hartley_ross" => (VERMILLION, (1, 0), Mark::Square),
+        "difference" => (ORANGE, (1, 0), Mark::Cross),
         "mickey" => (GREEN, (1, 0), Mark::Up),
         _ => (BLACK, (4, 4), Mark::None),
     };
