@@ -21,9 +21,12 @@ fn share(problem: usize, id: &str, draws: u64) -> f64 {
     method.points.iter().find(|point| point.draws == draws).unwrap().coverage.unwrap().share
 }
 
-/// The ids that begin the lines of the tables of problems.
+/// The ids that begin the lines of the tables of problems; lines with few words are wrapped cells.
 fn rows(table: &str) -> Vec<&'static str> {
-    let first = |line: &str| Method::from_id(line.split_whitespace().next()?).map(Method::id);
+    let first = |line: &str| {
+        let id = Method::from_id(line.split_whitespace().next()?).map(Method::id);
+        id.filter(|_| line.split_whitespace().count() > 8)
+    };
     let (problems, _) = table.split_once("\nerror, time: ").unwrap();
     problems.lines().filter_map(first).collect()
 }
