@@ -2,14 +2,14 @@
 
 use num_traits::float::FloatCore;
 use proptest::prelude::*;
-use ratiocv_core::conformance::{self, Accumulator};
+use ratiocv_core::conformance::{self, Accumulator, Sampled};
 use ratiocv_core::moments::{
-    Blocked, Comoments, ComomentsBlock, ExtremesBlock, Groups, GroupsBlock, Joined, Mean, RatioOf, Sums, ThirdBlock,
-    UnivariateBlock, Variance,
+    Blocked, Comoments, ComomentsBlock, ExtremesBlock, GroupedPairs, Groups, GroupsBlock, Joined, Mean, Pairs, RatioOf,
+    Sums, ThirdBlock, UnivariateBlock, Variance,
 };
 use ratiocv_core::{
-    Beale, Draw, Estimator, HartleyRoss, Integrals, Lanes, MeanOfRatios, Mickey, Plain, Quenouille, RatioOfMeans,
-    Reads, Scalar, Spectrum, Tin,
+    Beale, CrossFitted, Dependent, DeterministicMixture, Difference, Draw, Estimator, HartleyRoss, Integrals, Lanes,
+    MeanOfRatios, Mickey, Plain, Quenouille, RatioOfMeans, Reads, Regression, RegressionRatio, Scalar, Spectrum, Tin,
 };
 
 /// Draws with ties, zeros of either sign, and numbers of many sizes: what breaks sums. h stays away
@@ -39,23 +39,39 @@ fn power_of_two(e: i32) -> f64 {
     2.0_f64.powi(e)
 }
 
+/// The same draws with a second auxiliary, that of the draw before.
+fn two<V: Lanes>(draws: &[Draw<V>]) -> Vec<Draw<V, 2>> {
+    let before = |i: usize| draws[(i + draws.len() - 1) % draws.len()];
+    draws.iter().enumerate().map(|(i, draw)| Draw { f: draw.f, h: [draw.h[0], before(i).h[0]] }).collect()
+}
+
 /// All laws for one estimator on one accumulator.
-fn obey<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
+fn obey<D: Sampled, M: Accumulator<D>, E: Estimator<M::Channel, K>, const K: usize>(
     estimator: &E,
-    empty: impl Fn(&Integrals<V>) -> M,
-    draws: &[Draw<V>],
+    empty: impl Fn(&Integrals<D::Lanes, K>) -> M,
+    draws: &[D],
 ) -> Result<(), TestCaseError> {
     // The tolerance of an estimate: rounding of the lanes' scalar, times the conditions of the sums
     // (f has both signs) and of the corrections.
-    let epsilon = Lanes::widen(<V::Scalar as FloatCore>::epsilon());
-    let spread = draws.iter().flat_map(|d| (0..V::LANES).map(|i| Lanes::widen(d.f.get(i)).abs())).fold(1.0, f64::max);
+    let epsilon = Lanes::widen(<<D::Lanes as Lanes>::Scalar as FloatCore>::epsilon());
+    let mut spread = 1.0_f64;
+    for draw in draws {
+        let _ = draw.changed(
+            |f| {
+                spread = (0..D::Lanes::LANES).map(|i| Lanes::widen(f.get(i)).abs()).fold(spread, f64::max);
+                f
+            },
+            |h| h,
+        );
+    }
     let value = estimator.estimate_anyway(&at_once(empty(&Integrals::ONE), draws), &Integrals::ONE);
-    let least = (0..V::LANES).map(|i| value.value.get(i).abs()).fold(f64::INFINITY, f64::min).max(1e-9);
+    let lanes = 0..D::Lanes::LANES;
+    let least = lanes.map(|i| value.value.get(i).abs()).fold(f64::INFINITY, f64::min).max(1e-9);
     let tolerance = 256.0 * epsilon * spread / least.min(1.0);
     conformance::all(estimator, empty, draws, &Integrals::ONE, tolerance).map_err(TestCaseError::fail)
 }
 
-fn at_once<V: Lanes, M: Accumulator<V>>(mut moments: M, draws: &[Draw<V>]) -> M {
+fn at_once<D: Sampled, M: Accumulator<D>>(mut moments: M, draws: &[D]) -> M {
     moments.add_batch(draws);
     moments
 }
@@ -113,6 +129,20 @@ macro_rules! every_accumulator {
                     obey(&hartley_ross, |h| hartley_ross.error_bar(h), &draws)?;
                     let mickey = Mickey.defensive(0.01).unwrap();
                     obey(&mickey, |h| mickey.error_bar(h), &draws)?;
+                }
+
+                // Folds by fits to half the draws; two auxiliaries by given exponents, whose error bar reads
+                // every square and product; pairs by the jackknife of their sum.
+                #[test]
+                fn folds_several_and_pairs(draws in draws::<V>()) {
+                    let unshrunk = Regression { shrink: false, dependent: Dependent::MinimumNorm };
+                    let folds = CrossFitted(Difference { regression: unshrunk });
+                    obey(&folds, |h| folds.error_bar(h), &draws)?;
+                    let draws = two(&draws);
+                    obey(&RegressionRatio::default().fixed([0.75, -0.5]), |_| Comoments::<V, 2>::default(), &draws)?;
+                    let parts = |draw: &Draw<V, 2>| Pairs([draw.auxiliary(0), Draw::new(draw.f, draw.h[1])]);
+                    let pairs: Vec<_> = draws.iter().map(parts).collect();
+                    obey(&DeterministicMixture, |_| GroupedPairs::<V, 2, 8>::default(), &pairs)?;
                 }
 
                 #[test]

@@ -16,40 +16,65 @@ use crate::estimator::Estimator;
 use crate::flags::Flags;
 use crate::integrals::Integrals;
 use crate::lanes::{Lanes, Scalar};
-use crate::moments::{Accumulate, Merge, Moments};
+use crate::moments::{Accumulate, Merge, Moments, Pairs};
 
 /// A broken law.
 pub type Law = Result<(), &'static str>;
 
-/// An accumulator of draws with one auxiliary that estimators can read.
-pub trait Accumulator<V: Lanes>: Accumulate<Draw<V>> + Merge + Moments<Lanes = V> + Clone {}
+/// What is drawn, as the laws spoil and scale it.
+///
+/// *Implemented by* [`Draw`] and [`Pairs`]; *called by* the laws.
+pub trait Sampled: Copy {
+    /// The lanes of its entries.
+    type Lanes: Lanes;
+    /// The same with `f` of each integrand and `h` of each auxiliary.
+    #[must_use]
+    fn changed(self, f: impl FnMut(Self::Lanes) -> Self::Lanes, h: impl FnMut(Self::Lanes) -> Self::Lanes) -> Self;
+}
 
-impl<V: Lanes, M: Accumulate<Draw<V>> + Merge + Moments<Lanes = V> + Clone> Accumulator<V> for M {}
+impl<V: Lanes, const K: usize> Sampled for Draw<V, K> {
+    type Lanes = V;
+    fn changed(self, mut f: impl FnMut(V) -> V, h: impl FnMut(V) -> V) -> Self {
+        Self { f: f(self.f), h: self.h.map(h) }
+    }
+}
+
+impl<V: Lanes, const K: usize> Sampled for Pairs<V, K> {
+    type Lanes = V;
+    fn changed(self, mut f: impl FnMut(V) -> V, mut h: impl FnMut(V) -> V) -> Self {
+        Self(self.0.map(|pair| pair.changed(&mut f, &mut h)))
+    }
+}
+
+/// An accumulator of draws that estimators can read.
+pub trait Accumulator<D: Sampled>: Accumulate<D> + Merge + Moments<Lanes = D::Lanes> + Clone {}
+
+impl<D: Sampled, M: Accumulate<D> + Merge + Moments<Lanes = D::Lanes> + Clone> Accumulator<D> for M {}
 
 /// Every law on `draws`, whose estimates may move by `tolerance` (relative) with the way that they
 /// are split.
 ///
 /// # Errors
 /// The first law that does not hold.
-pub fn all<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
+pub fn all<D: Sampled, M: Accumulator<D>, E: Estimator<M::Channel, K>, const K: usize>(
     estimator: &E,
-    empty: impl Fn(&Integrals<V>) -> M,
-    draws: &[Draw<V>],
-    integrals: &Integrals<V>,
+    empty: impl Fn(&Integrals<D::Lanes, K>) -> M,
+    draws: &[D],
+    integrals: &Integrals<D::Lanes, K>,
     tolerance: f64,
 ) -> Law {
     same_calls_same_bits(estimator, &empty, draws, integrals)?;
     empty_is_identity(estimator, &empty, draws, integrals)?;
     let at = draws.len() / 3;
     whole_is_split(estimator, &empty, draws, at, integrals, tolerance)?;
-    bad_channel_is_alone(estimator, &empty, draws, V::LANES / 2, integrals)?;
+    bad_channel_is_alone(estimator, &empty, draws, D::Lanes::LANES / 2, integrals)?;
     scales_exactly(estimator, &empty, draws, integrals)
 }
 
 /// `draws`, added one by one. Not inlined: the laws call it in many places, and accumulators are large
 /// when inlined.
 #[inline(never)]
-fn one_by_one<V: Lanes, M: Accumulator<V>>(mut moments: M, draws: &[Draw<V>]) -> M {
+fn one_by_one<D: Sampled, M: Accumulator<D>>(mut moments: M, draws: &[D]) -> M {
     for draw in draws {
         moments.add(*draw);
     }
@@ -58,17 +83,17 @@ fn one_by_one<V: Lanes, M: Accumulator<V>>(mut moments: M, draws: &[Draw<V>]) ->
 
 /// `draws`, added at once.
 #[inline(never)]
-fn at_once<V: Lanes, M: Accumulator<V>>(mut moments: M, draws: &[Draw<V>]) -> M {
+fn at_once<D: Sampled, M: Accumulator<D>>(mut moments: M, draws: &[D]) -> M {
     moments.add_batch(draws);
     moments
 }
 
 #[inline(never)]
-fn read<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
+fn read<D: Sampled, M: Accumulator<D>, E: Estimator<M::Channel, K>, const K: usize>(
     estimator: &E,
     moments: &M,
-    integrals: &Integrals<V>,
-) -> Estimate<V> {
+    integrals: &Integrals<D::Lanes, K>,
+) -> Estimate<D::Lanes> {
     estimator.estimate_anyway(moments, integrals)
 }
 
@@ -97,13 +122,13 @@ fn close<V: Lanes>(a: &Estimate<V>, b: &Estimate<V>, channel: usize, tolerance: 
 ///
 /// # Errors
 /// If they do not.
-pub fn same_calls_same_bits<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
+pub fn same_calls_same_bits<D: Sampled, M: Accumulator<D>, E: Estimator<M::Channel, K>, const K: usize>(
     estimator: &E,
-    empty: &impl Fn(&Integrals<V>) -> M,
-    draws: &[Draw<V>],
-    integrals: &Integrals<V>,
+    empty: &impl Fn(&Integrals<D::Lanes, K>) -> M,
+    draws: &[D],
+    integrals: &Integrals<D::Lanes, K>,
 ) -> Law {
-    let run = |add: fn(M, &[Draw<V>]) -> M| read(estimator, &add(empty(integrals), draws), integrals);
+    let run = |add: fn(M, &[D]) -> M| read(estimator, &add(empty(integrals), draws), integrals);
     same_everywhere(&run(one_by_one), &run(one_by_one), "add: the same calls gave other bits")?;
     same_everywhere(&run(at_once), &run(at_once), "add_batch: the same calls gave other bits")
 }
@@ -112,11 +137,11 @@ pub fn same_calls_same_bits<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel
 ///
 /// # Errors
 /// If it does, or they do not.
-pub fn empty_is_identity<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
+pub fn empty_is_identity<D: Sampled, M: Accumulator<D>, E: Estimator<M::Channel, K>, const K: usize>(
     estimator: &E,
-    empty: &impl Fn(&Integrals<V>) -> M,
-    draws: &[Draw<V>],
-    integrals: &Integrals<V>,
+    empty: &impl Fn(&Integrals<D::Lanes, K>) -> M,
+    draws: &[D],
+    integrals: &Integrals<D::Lanes, K>,
 ) -> Law {
     let full = one_by_one(empty(integrals), draws);
     let alone = read(estimator, &full, integrals);
@@ -141,12 +166,12 @@ pub fn empty_is_identity<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
 ///
 /// # Errors
 /// If it is not.
-pub fn whole_is_split<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
+pub fn whole_is_split<D: Sampled, M: Accumulator<D>, E: Estimator<M::Channel, K>, const K: usize>(
     estimator: &E,
-    empty: &impl Fn(&Integrals<V>) -> M,
-    draws: &[Draw<V>],
+    empty: &impl Fn(&Integrals<D::Lanes, K>) -> M,
+    draws: &[D],
     at: usize,
-    integrals: &Integrals<V>,
+    integrals: &Integrals<D::Lanes, K>,
     tolerance: f64,
 ) -> Law {
     let (earlier, later) = draws.split_at(at.min(draws.len()));
@@ -159,7 +184,7 @@ pub fn whole_is_split<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
             return Err("a split changed the count");
         }
         let (whole, parts) = (read(estimator, &whole, integrals), read(estimator, parts, integrals));
-        if !(0..V::LANES).all(|channel| close(&whole, &parts, channel, tolerance)) {
+        if !(0..D::Lanes::LANES).all(|channel| close(&whole, &parts, channel, tolerance)) {
             return Err("a split changed the estimate by more than the tolerance");
         }
     }
@@ -170,24 +195,25 @@ pub fn whole_is_split<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
 ///
 /// # Errors
 /// If it does not.
-pub fn bad_channel_is_alone<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
+pub fn bad_channel_is_alone<D: Sampled, M: Accumulator<D>, E: Estimator<M::Channel, K>, const K: usize>(
     estimator: &E,
-    empty: &impl Fn(&Integrals<V>) -> M,
-    draws: &[Draw<V>],
+    empty: &impl Fn(&Integrals<D::Lanes, K>) -> M,
+    draws: &[D],
     bad: usize,
-    integrals: &Integrals<V>,
+    integrals: &Integrals<D::Lanes, K>,
 ) -> Law {
-    let poison = |x: V| V::from_fn(|i| if i == bad { V::Scalar::from_f64(f64::NAN) } else { x.get(i) });
-    for add in [one_by_one::<V, M>, at_once::<V, M>] {
+    let nan = <D::Lanes as Lanes>::Scalar::from_f64(f64::NAN);
+    let poison = |x: D::Lanes| D::Lanes::from_fn(|i| if i == bad { nan } else { x.get(i) });
+    for add in [one_by_one::<D, M>, at_once::<D, M>] {
         let clean = read(estimator, &add(empty(integrals), draws), integrals);
         for position in [0, draws.len() / 2, draws.len().saturating_sub(1)] {
             let (before, rest) = draws.split_at(position.min(draws.len()));
             let Some((draw, after)) = rest.split_first() else { return Ok(()) };
-            let poisoned = Draw::new(poison(draw.f), poison(draw.h[0]));
+            let poisoned = draw.changed(poison, poison);
             // Not through one slice, since there is no place to build it; the clean run, likewise.
             let run = |middle| read(estimator, &add(add(add(empty(integrals), before), &[middle]), after), integrals);
             let (clean_here, dirty) = (run(*draw), run(poisoned));
-            for channel in (0..V::LANES).filter(|channel| *channel != bad) {
+            for channel in (0..D::Lanes::LANES).filter(|channel| *channel != bad) {
                 if !same_bits(&clean_here, &dirty, channel) {
                     return Err("a bad channel changed another one");
                 }
@@ -207,24 +233,24 @@ pub fn bad_channel_is_alone<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel
 ///
 /// # Errors
 /// If it does not.
-pub fn scales_exactly<V: Lanes, M: Accumulator<V>, E: Estimator<M::Channel>>(
+pub fn scales_exactly<D: Sampled, M: Accumulator<D>, E: Estimator<M::Channel, K>, const K: usize>(
     estimator: &E,
-    empty: &impl Fn(&Integrals<V>) -> M,
-    draws: &[Draw<V>],
-    integrals: &Integrals<V>,
+    empty: &impl Fn(&Integrals<D::Lanes, K>) -> M,
+    draws: &[D],
+    integrals: &Integrals<D::Lanes, K>,
 ) -> Law {
-    let factor = V::splat(V::Scalar::from_f64(0.125));
-    let run = |f: V, h: V| {
-        let integrals = &Integrals::new([integrals.0[0] * h.widen()]);
+    let factor = D::Lanes::splat(<D::Lanes as Lanes>::Scalar::from_f64(0.125));
+    let run = |f: D::Lanes, h: D::Lanes| {
+        let integrals = &Integrals::new(integrals.0.map(|integral| integral * h.widen()));
         let mut moments = empty(integrals);
         for draw in draws {
-            moments = one_by_one(moments, &[Draw::new(draw.f * f, draw.h[0] * h)]);
+            moments = one_by_one(moments, &[draw.changed(|x| x * f, |x| x * h)]);
         }
         read(estimator, &moments, integrals)
     };
-    let alone = run(V::ONE, V::ONE);
-    let (f, h) = (run(factor, V::ONE), run(V::ONE, factor));
-    for channel in 0..V::LANES {
+    let alone = run(D::Lanes::ONE, D::Lanes::ONE);
+    let (f, h) = (run(factor, D::Lanes::ONE), run(D::Lanes::ONE, factor));
+    for channel in 0..D::Lanes::LANES {
         let (alone, f, h) = (alone.channel(channel), f.channel(channel), h.channel(channel));
         let eighth = |x: f64, y: f64| x * 0.125 == y || (x.is_nan() && y.is_nan());
         if !(eighth(alone.value, f.value) && eighth(alone.std_error, f.std_error)) {

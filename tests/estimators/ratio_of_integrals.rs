@@ -26,6 +26,10 @@ fn by_hand() {
     // The distance of d̄ from its own value is 0.
     assert_close(ours.std_error, (10.0 / 3.0 / 4.0 * (3.0 / 2.0) * 1.25_f64).sqrt() / 2.0, 1e-14, "error");
     assert!(!ours.flags.fell_back(), "{ours:?}");
+    // d with q/2 more: z has −q/2, γ = −½.
+    let along = [1.5, 1.5, 1.5, 3.5];
+    let turned: Vec<_> = DRAWS.iter().zip(along).map(|(draw, d)| Draw { f: draw.f, h: [d, draw.h[1]] }).collect();
+    assert_close(run(&turned, [f64::NAN, 3.5]).value, 3.0 - 0.5 * 0.5 / 2.0, 1e-15, "a control that knows d");
     // Without controls: f̄/d̄, residuals 2p + q + e.
     let bare = run(&DRAWS.map(|Draw { f, h: [d, _] }| Draw { f, h: [d] }), [f64::NAN]);
     assert_close(bare.value, 3.0, 1e-15, "no controls");

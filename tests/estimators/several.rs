@@ -187,7 +187,11 @@ fn optimal_defensive_weights_are_the_best_of_all_subsets() {
     let mut sizes = [0; 3];
     for seed in 0..300 {
         let slope = [(seed % 17) as f64 / 20.0 - 0.4, (seed % 23) as f64 / 20.0 - 0.6];
-        let draws = noisy::<2>(seed, 12, |h, e| 9.0 + slope[0] * h[0] + slope[1] * h[1] + 2.0 * e);
+        let mut draws = noisy::<2>(seed, 12, |h, e| 9.0 + slope[0] * h[0] + slope[1] * h[1] + 2.0 * e);
+        if seed % 2 == 1 {
+            // Auxiliaries that oppose each other: one that was left out may have to come back.
+            draws.iter_mut().for_each(|draw| draw.h[1] = 2.0 - draw.h[1]);
+        }
         let of_f = first_estimate(&draws, &integrals);
         // Each auxiliary alone, both, none: least squares, by one-auxiliary fits.
         let alone = |k: usize| {
@@ -229,7 +233,7 @@ fn the_proposal_keeps_its_floor() {
 }
 
 /// Where f is linear in h every fitted difference is exact, cross-fitted or not. Its error is what the first
-/// draws, fewer than there are coefficients, leave when the slopes are found: a few 10⁻⁹ of s_f/√N.
+/// draws, fewer than there are coefficients, leave when the slopes are found: up to √ε·s_f/√N, here 3e-9.
 #[test]
 fn what_is_linear_is_exact() {
     let draws = noisy::<2>(9, 40, |[a, b], _| 2.0 + 3.0 * a - b);
@@ -239,14 +243,14 @@ fn what_is_linear_is_exact() {
         run(<OptimalDefensive>::default().fixed([0.75, -0.25]), &draws, &integrals),
     ] {
         assert_close(estimate.value, 4.0, 1e-13, "value");
-        assert!(estimate.std_error <= 1e-9, "{estimate:?}");
+        assert!(estimate.std_error <= 3e-9, "{estimate:?}");
     }
     let estimator = CrossFitted(Difference::default());
     let mut folds = estimator.error_bar(&integrals);
     draws.iter().for_each(|draw| folds.add(*draw));
     let ours = estimator.estimate(&folds, &integrals).expect("40 draws").channel(0);
     assert_close(ours.value, 4.0, 1e-13, "cross-fitted");
-    assert!(ours.std_error <= 1e-9, "{ours:?}");
+    assert!(ours.std_error <= 3e-9, "{ours:?}");
     // Mickey on the mixture of two, cross-fitted: a = (3/4, −1/4) is not allowed; flagged, and near.
     let estimator = CrossFitted(OptimalDefensive::of(ratiocv_core::Mickey));
     let mut folds = estimator.error_bar(&integrals);

@@ -5,6 +5,7 @@ use crate::estimator::remarks::Remarks;
 use crate::estimator::{Coefficients, Estimator, Sample};
 use crate::flags::Flags;
 use crate::moments::{Group, HasComoments, HasGroups, HasMeans, HasRatioMean, Means, RatioMoments, Spread, Tails};
+use crate::planted::planted;
 
 /// The moments of (f, h′), h′ = constant + Σ_k coefficient_k·h_k, seen through those of (f, h).
 ///
@@ -72,7 +73,9 @@ impl<S, const K: usize> Combined<'_, S, K> {
         };
         let slope = if slope.is_finite() { slope } else { 0.0 };
         let c = self.coefficients.map(|coefficient| slope * coefficient);
-        let turned = |k: usize| -> f64 { (0..K).map(|j| (spread.slope[j] - c[j]) * spread.hh[k][j]).sum() };
+        let turned = |k: usize| -> f64 {
+            (0..K).map(|j| (spread.slope[j] - planted!("combined_turn": c[j], 0.0)) * spread.hh[k][j]).sum()
+        };
         let eh = if K == 1 { along(&|k| spread.eh[k]) } else { along(&|k| spread.eh[k] + turned(k)) };
         Spread {
             slope: [slope],

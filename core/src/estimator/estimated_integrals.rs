@@ -108,7 +108,7 @@ fn widened<const K: usize>(mut spread: Spread<K>, more: &[f64; K]) -> Spread<K> 
     for (k, more) in more.iter().enumerate().filter(|(_, more)| **more != 0.0) {
         let slope = spread.slope[k];
         spread.ee += slope * slope * more;
-        spread.eh[k] -= slope * more;
+        spread.eh[k] -= planted!("estimated_slope": slope * more, 0.0);
         spread.hh[k][k] += more;
     }
     spread

@@ -35,11 +35,16 @@ mod tests {
 
     #[test]
     fn one_that_was_left_out_comes_back() {
-        // b = a·(−1, −0.6): both are negative, the first the more so, yet the first alone is the best: 1/5.
-        let (a, b) = ([[1.0, -2.0], [-2.0, 5.0]], [0.2, -1.0]);
-        let fit = |among: &[bool; 2]| solve(&a, &b, &among.map(|taken| f64::from(u8::from(taken))), 1e-14).x;
-        assert!(fit(&[true; 2])[0] < fit(&[true; 2])[1] && fit(&[true; 2])[1] < 0.0);
-        assert_eq!(nonnegative(fit), [true, false]);
+        // b = a·x with x = (−1, −0.6), or the other way round: both are negative, yet the one that is the more
+        // so is the best alone, 1/5.
+        for (a, b, best) in [
+            ([[1.0, -2.0], [-2.0, 5.0]], [0.2, -1.0], [true, false]),
+            ([[5.0, -2.0], [-2.0, 1.0]], [-1.0, 0.2], [false, true]),
+        ] {
+            let fit = |among: &[bool; 2]| solve(&a, &b, &among.map(|taken| f64::from(u8::from(taken))), 1e-14).x;
+            assert!(fit(&[true; 2]).iter().all(|x| *x < 0.0));
+            assert_eq!(nonnegative(fit), best);
+        }
     }
 
     #[test]

@@ -142,7 +142,7 @@ impl<const K: usize> Remarks<K> {
             return 1.0;
         }
         let apart = core::array::from_fn(|k| self.integrals[k] - self.mean_h[k]);
-        let reach = 1.0 + n * leverage(spread, &apart, self.epsilon);
+        let reach = 1.0 + planted!("fit_leverage": n, 1.0) * leverage(spread, &apart, self.epsilon);
         let freedom = n - 1.0 - parameters;
         if freedom > 0.0 { libm::sqrt(reach * planted!("fit_freedom": (n - 1.0) / freedom, 1.0)) } else { f64::NAN }
     }
