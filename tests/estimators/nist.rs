@@ -79,7 +79,7 @@ fn wampler() {
             core::array::from_fn(|k| (0..21).map(|x| f64::from(x).powi(k as i32 + 1)).sum::<f64>() / 21.0);
         let error = DIFFERENCE.estimate(&moments, &Integrals::new(means)).expect("draws").std_error * 21.0_f64.sqrt();
         if noise > 0.0 {
-            let digits = digits(&[error], &[noise * 2360.145_023_792_68]);
+            let digits = digits(&[error], &[noise * 2_360.145_023_792_68]);
             println!("{name}: {digits:.1} digits of the residual standard deviation");
             assert!(digits >= 5.0, "{name}: {error}");
         }
