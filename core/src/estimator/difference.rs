@@ -68,7 +68,7 @@ impl<S: HasMeans<K>, const K: usize> WithCoefficients<S, K> for Difference {
             return remarks.plain(Flags::NONE);
         }
         // Nothing is divided by x̄.
-        let remarks = remarks.without(Flags::DENOM_ILL | Flags::LOW_ESS).and(coefficients.flags);
+        let remarks = remarks.without(Flags::DENOM_ILL).and(coefficients.flags);
         let means = sample.moments.means(sample.count);
         let beta = &coefficients.values;
         // An auxiliary that is not used must not be multiplied by 0: its mean may be enormous.
