@@ -17,12 +17,15 @@ ladder::ladder! {
     one draw 5.0,
     by hand {
         assert_eq!(REGRESSION_RATIO, RegressionRatio::default());
-        // α̂ = 35/18·(5/2)/6: 6·1.6^α̂. Its coefficient α̂ȳ/x̄ is the difference's, and so is its error.
-        let (value, std_error) = (6.0 * 1.6_f64.powf(175.0 / 216.0), (73.0_f64 / 144.0).sqrt());
+        // α̂ = 35/18·(5/2)/6: 6·1.6^α̂. Its coefficient α̂ȳ/x̄ is the difference's, and so is its error, but
+        // for the distance from the difference 107/12.
+        let (value, linear) = (6.0 * 1.6_f64.powf(175.0 / 216.0), 107.0 / 12.0);
+        let std_error = (73.0_f64 / 144.0).sqrt().hypot(value - linear);
         ladder::by_hand(REGRESSION_RATIO, &CORRELATED, INTEGRAL_OF_CORRELATED, value, std_error);
         ladder::defended(REGRESSION_RATIO, &CORRELATED, INTEGRAL_OF_CORRELATED);
         let value = 6.0 * 1.6_f64.powf(5.0 / 6.0);
-        ladder::by_hand(unshrunk(), &CORRELATED, INTEGRAL_OF_CORRELATED, value, 0.5_f64.sqrt());
+        let std_error = 0.5_f64.sqrt().hypot(value - 9.0);
+        ladder::by_hand(unshrunk(), &CORRELATED, INTEGRAL_OF_CORRELATED, value, std_error);
     },
     at 1e9 fitted::difference_at_1e9
 }
@@ -38,8 +41,8 @@ fn exponents_are_clamped() {
     let steep = CORRELATED.map(|(f, h)| (f - 5.0, h));
     let clamped = run(unshrunk(), &steep, 4.0);
     assert!((clamped.value - 2.56).abs() <= 1e-15 && clamped.flags.contains(Flags::ALPHA), "{clamped:?}");
-    // Σ(e − ē)² = 2 + 9(2 − 0.8)² over 3·4, ×2·3/2.
-    assert!((clamped.std_error - (14.96_f64 / 12.0 * 3.0).sqrt()).abs() <= 1e-14);
+    // Σ(e − ē)² = 2 + 9(2 − 0.8)² over 3·4, ×2·3/2; and 2.56 for 1 + 0.8·3/2.
+    assert!((clamped.std_error - (14.96_f64 / 12.0 * 3.0).sqrt().hypot(0.36)).abs() <= 1e-14);
     // Falling f: −5 becomes −1, the product estimator.
     let falling = CORRELATED.map(|(f, h)| (7.0 - f, h));
     let clamped = run(unshrunk(), &falling, 4.0);

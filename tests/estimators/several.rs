@@ -55,18 +55,22 @@ fn difference_by_hand() {
 
 #[test]
 fn multiple_regression_ratio_by_hand() {
-    // α̂ = β̂h̄/f̄ = (3/10, 1/4): 10·(4/3)^0.3·(3/2)^0.25; the difference's error.
+    // α̂ = β̂h̄/f̄ = (3/10, 1/4): 10·(4/3)^0.3·(3/2)^0.25; the difference's error, and the distance from it.
     let ratio = RegressionRatio { regression: UNSHRUNK, ..RegressionRatio::default() };
     let ours = run(ratio, &DRAWS, &INTEGRALS);
-    assert_close(ours.value, 10.0 * (4.0_f64 / 3.0).powf(0.3) * 1.5_f64.powf(0.25), 1e-14, "fitted");
-    assert_close(ours.std_error, (5.0 * (0.2 + 0.1 + 2.25 / 14.0_f64)).sqrt(), 1e-14, "its error");
-    // Given α, three auxiliaries: 10·√(4/3)·(3/4)... c = αf̄/h̄.
+    let value = 10.0 * (4.0_f64 / 3.0).powf(0.3) * 1.5_f64.powf(0.25);
+    assert_close(ours.value, value, 1e-14, "fitted");
+    let first_order = (5.0 * (0.2 + 0.1 + 2.25 / 14.0_f64)).sqrt();
+    assert_close(ours.std_error, first_order.hypot(value - 12.25), 1e-14, "its error");
+    // Given α, three auxiliaries: 10·√(4/3)·(5/7.5)·2²; c = αf̄/h̄ = (5/3, −2, 20/7), H − h̄ = (1, 5/2, 7).
     let three = DRAWS.map(|Draw { f, h: [a, b] }| Draw { f, h: [a, b, 10.0 - a] });
     let given = run(RegressionRatio::default().fixed([0.5, -1.0, 2.0]), &three, &Integrals::new([4.0, 7.5, 14.0]));
-    assert_close(given.value, 10.0 * (4.0_f64 / 3.0).sqrt() * (5.0 / 7.5) * 4.0, 1e-13, "given α");
+    let (value, linear) = (10.0 * (4.0_f64 / 3.0).sqrt() * (5.0 / 7.5) * 4.0, 10.0 + 5.0 / 3.0 - 5.0 + 20.0);
+    assert_close(given.value, value, 1e-13, "given α");
     // Along d: 3/2 − 5/3 + 2 + 20/7; along q: ½ + 2.
     let along = 1.5 - 5.0 / 3.0 + 2.0 + 20.0 / 7.0;
-    assert_close(given.std_error, ((10.0 + along * along * 10.0 + 6.25 * 14.0) / 20.0_f64).sqrt(), 1e-13, "its error");
+    let first_order = ((10.0 + along * along * 10.0 + 6.25 * 14.0) / 20.0_f64).sqrt();
+    assert_close(given.std_error, first_order.hypot(value - linear), 1e-13, "its error");
     assert_eq!(<RegressionRatio as Reads<1>>::ID, "regression_ratio");
     assert_eq!(<RegressionRatio as Reads<2>>::ID, "multiple_regression_ratio");
 }
