@@ -33,7 +33,7 @@ impl Default for Options {
             methods: Method::all().collect(),
             seed: 1,
             threads: None,
-            budget_seconds: 35.0,
+            budget_seconds: 28.0,
             defensive_weight: 0.01,
             exhibits: true,
             quick: false,
