@@ -73,3 +73,13 @@ fn an_infinite_spread_is_plain() {
     let far = run(CHOOSE, &[(1e200, 1.0), (-1e200, 2.0), (3e200, 3.0), (1e200, 4.0)], 2.0);
     assert!(far.value == 1e200 && far.flags.contains(Flags::OVERFLOW) && far.std_error.is_nan(), "{far:?}");
 }
+
+/// A ratio that divides by little is said to, a difference with the same draws is not.
+#[test]
+fn a_chosen_ratio_says_that_its_denominator_is_ill() {
+    let h = [1.0, -0.5, 1.5, -1.0, 0.75, 0.25];
+    let ratio = run(CHOOSE, &h.map(|h| (2.0 * h, h)), 0.25);
+    assert!((ratio.value - 0.5).abs() <= 1e-15 && ratio.flags.contains(Flags::DENOM_ILL), "{ratio:?}");
+    let difference = run(CHOOSE, &h.map(|h| (2.0 * h + 1.0, h)), 0.25);
+    assert!((difference.value - 1.5).abs() <= 1e-14 && !difference.flags.contains(Flags::DENOM_ILL), "{difference:?}");
+}

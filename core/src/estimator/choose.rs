@@ -3,6 +3,7 @@
 use crate::estimate::ChannelEstimate;
 use crate::estimator::fixed::fits_its_own_draws;
 use crate::estimator::{Coefficients, Difference, Fit, Regression, Sample, WithCoefficients};
+use crate::flags::Flags;
 use crate::integrals::Integrals;
 use crate::lanes::{Lanes, PerLane};
 use crate::moments::{ComomentsBlock, HasComoments, HasMeans, Moments, Spread};
@@ -26,7 +27,8 @@ use crate::planted::planted;
 /// Deterministic; ties, and what differs by rounding alone, go to the earlier. Consistent, since each is;
 /// a choice that depends on the draws keeps no estimator unbiased. [`CrossFitted<Choose>`](crate::CrossFitted)
 /// chooses in one fold for the other: **exactly unbiased**, with the first-order MSE of what it chose.
-/// Below 4 draws: plain.
+/// Below 4 draws: plain. Where a ratio is chosen whose denominator is within five standard errors of 0,
+/// DENOM_ILL says so.
 ///
 /// ```
 /// use ratiocv_core::{moments::{Accumulate, Comoments}, Choice, Choose, Draw, Integrals, Spectrum};
@@ -96,7 +98,10 @@ impl Choose {
         for k in (0..K).filter(|k| means.h[*k] != 0.0 && integrals[*k] != 0.0) {
             let mut c = [0.0; K];
             c[k] = means.f / means.h[k];
-            consider(Choice::Ratio(k), Coefficients::given(c), 1.0);
+            // Of the difference's remarks this one is missing: it does not divide by x̄, the ratio does.
+            let error = libm::sqrt(spread.hh[k][k] / (n - 1.0) / n);
+            let flags = Flags::when(means.h[k].abs() < 5.0 * error, Flags::DENOM_ILL);
+            consider(Choice::Ratio(k), Coefficients { flags, ..Coefficients::given(c) }, 1.0);
         }
         let beta = self.regression.fit(sample);
         let freedom = n - 2.0 - beta.parameters;
