@@ -23,7 +23,7 @@ impl Solved for NegativeCorrelation {
         id: "negative-correlation",
         title: "Negative correlation",
         formula: "f = 3/2 − x + cos(2πx)/10, h = 1/2 + x, x uniform on [0, 1]",
-        why: "A ratio assumes that f rises with h; here it doubles the noise. A product estimator, or none, is right.",
+        why: "A ratio assumes that f rises with h; here it doubles the noise. A fitted coefficient turns the sign.",
     };
 
     fn exact(&self) -> f64 {
