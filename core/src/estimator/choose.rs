@@ -21,8 +21,8 @@ use crate::planted::planted;
 ///
 /// The draws cannot tell what they have not seen: on a law whose rare draws decide everything, the choice
 /// is plain until one of them turns up. From 64 draws on its MSE is at most 5 % above that of the best of
-/// the three on all problems of `ratiocv-report` but one of that kind (9 % at 64 draws); from
-/// 16 draws on it is at most 10 % above plain's (`std-adapters/report/tests/choose.rs`).
+/// the three on all problems of `ratiocv-report` but one of that kind (9 % at 64 draws); from 16 draws on
+/// it is at most 10 % above plain's (`std-adapters/report/tests/choose.rs`).
 ///
 /// Deterministic; ties, and what differs by rounding alone, go to the earlier. Consistent, since each is;
 /// a choice that depends on the draws keeps no estimator unbiased. [`CrossFitted<Choose>`](crate::CrossFitted)

@@ -16,7 +16,8 @@ use crate::planted::planted;
 /// \[0, 1 − ε\] the first-order bias vanishes *and* the MSE is that of the optimal difference control
 /// variate; outside, the clamp loses: take [`Difference`](crate::Difference). a_k = β̂_k·H_k/F̂, F̂ the
 /// regression estimate, learned from the draws: the best a ≥ 0, then scaled down to a_0 ≥ `floor`, so that
-/// denominators are positive where every h is (ALPHA where either acts). With [`Mickey`] on it and a given, or [`CrossFitted`](crate::CrossFitted), it is exactly unbiased.
+/// denominators are positive where every h is (ALPHA where either acts). With [`Mickey`] on it and a given,
+/// or [`CrossFitted`](crate::CrossFitted), it is exactly unbiased.
 ///
 /// ```
 /// use ratiocv_core::{moments::{Accumulate, Comoments}, Draw, Estimator, Integrals, OptimalDefensive};
