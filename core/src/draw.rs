@@ -1,6 +1,8 @@
 //! What a renderer has in its hands after one sample.
 
+use crate::filled::filled;
 use crate::lanes::Lanes;
+use crate::spectrum::Spectrum;
 
 /// One draw X ~ g, element-wise over the channels: `f` = f(X)/g(X) and, for each of the `K`
 /// auxiliaries, `h[k]` = h_k(X)/g(X). Both are already divided by the pdf.
@@ -39,14 +41,21 @@ impl<V: Lanes, const K: usize> Draw<V, K> {
 
     /// `change` of every entry.
     #[inline(always)]
-    pub(crate) fn map<U>(self, mut change: impl FnMut(V) -> U) -> Draw<U, K> {
-        Draw { f: change(self.f), h: self.h.map(change) }
+    pub(crate) fn map<U: Lanes>(self, mut change: impl FnMut(V) -> U) -> Draw<U, K> {
+        Draw { f: change(self.f), h: filled(U::ZERO, |k| change(self.h[k])) }
     }
 
     /// `combine` of the entries of two draws.
     #[inline(always)]
     pub(crate) fn zip(self, other: Self, mut combine: impl FnMut(V, V) -> V) -> Self {
-        Self { f: combine(self.f, other.f), h: core::array::from_fn(|k| combine(self.h[k], other.h[k])) }
+        Self { f: combine(self.f, other.f), h: filled(V::ZERO, |k| combine(self.h[k], other.h[k])) }
+    }
+
+    /// `P` draws as one of `P` times as many channels.
+    #[inline(always)]
+    pub(crate) fn side_by_side<const P: usize>(draws: &[Self; P]) -> Draw<Spectrum<V, P>, K> {
+        let side_by_side = |of: &dyn Fn(&Self) -> V| Spectrum(filled(V::ZERO, |i| of(&draws[i])));
+        Draw { f: side_by_side(&|draw| draw.f), h: filled(Spectrum::ZERO, |k| side_by_side(&|draw| draw.h[k])) }
     }
 
     /// The draw with auxiliary `k` alone; panics if there is no such auxiliary.

@@ -43,6 +43,7 @@ mod draw;
 mod error;
 mod estimate;
 mod estimator;
+mod filled;
 mod flags;
 mod integrals;
 mod lanes;

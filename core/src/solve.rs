@@ -1,5 +1,6 @@
 //! Small symmetric systems, one per lane: the normal equations of a regression on `K` auxiliaries.
 
+use crate::filled::filled;
 use crate::lanes::Lanes;
 use crate::planted::planted;
 
@@ -33,9 +34,9 @@ pub(crate) fn solve<W: Lanes<Scalar = f64>, const K: usize>(
     let (mut rest, mut x, mut free, mut determined) = (*a, *b, *wanted, [W::ZERO; K]);
     if K == 1 {
         // No order to find, nothing to eliminate.
-        let determined = core::array::from_fn(|k| W::select(W::ZERO.lt(a[k][k]), wanted[k], W::ZERO));
+        let determined = filled(W::ZERO, |k| W::select(W::ZERO.lt(a[k][k]), wanted[k], W::ZERO));
         let over = |k: usize| W::select(W::equal(determined[k], W::ONE), b[k] / a[k][k], W::ZERO);
-        return Solution { x: core::array::from_fn(over), determined, rest };
+        return Solution { x: filled(W::ZERO, over), determined, rest };
     }
     for _ in 0..K {
         let (mut largest, mut chosen) = (W::splat(tolerance), W::splat(-1.0));
@@ -45,12 +46,12 @@ pub(crate) fn solve<W: Lanes<Scalar = f64>, const K: usize>(
             largest = W::select(better, share, largest);
             chosen = W::select(better, W::splat(k as f64), chosen);
         }
-        let is_chosen: [W::Mask; K] = core::array::from_fn(|k| W::equal(chosen, W::splat(k as f64)));
+        let is_chosen: [W::Mask; K] = filled(W::ZERO.lt(W::ZERO), |k| W::equal(chosen, W::splat(k as f64)));
         let pick = |of: &dyn Fn(usize) -> W, otherwise: W| {
             (0..K).fold(otherwise, |picked, k| W::select(is_chosen[k], of(k), picked))
         };
         // Where no pivot is left, a row of zeros is subtracted.
-        let row: [W; K] = core::array::from_fn(|j| pick(&|k| rest[k][j], W::ZERO));
+        let row: [W; K] = filled(W::ZERO, |j| pick(&|k| rest[k][j], W::ZERO));
         let (pivot, right) = (pick(&|k| rest[k][k], W::ONE), pick(&|k| x[k], W::ZERO));
         for i in 0..K {
             let factor = W::select(is_chosen[i], W::ZERO, pick(&|k| rest[i][k], W::ZERO) / pivot);
@@ -62,7 +63,7 @@ pub(crate) fn solve<W: Lanes<Scalar = f64>, const K: usize>(
             determined[i] = W::select(is_chosen[i], W::ONE, determined[i]);
         }
     }
-    let x = core::array::from_fn(|k| W::select(W::equal(determined[k], W::ONE), x[k] / rest[k][k], W::ZERO));
+    let x = filled(W::ZERO, |k| W::select(W::equal(determined[k], W::ONE), x[k] / rest[k][k], W::ZERO));
     Solution { x, determined, rest }
 }
 
@@ -80,11 +81,10 @@ impl<W: Lanes<Scalar = f64>, const K: usize> Solution<W, K> {
             (0..K).fold(W::ZERO, |sum, p| sum + one(p) * other(p))
         };
         let unit = |i: usize, j: usize| if i == j { W::ONE } else { W::ZERO };
-        let normal =
-            core::array::from_fn(|i| core::array::from_fn(|j| unit(i, j) + products(&|p| t(p, i), &|p| t(p, j))));
-        let right = core::array::from_fn(|q| products(&|p| t(p, q), &|p| self.x[p]));
+        let normal = filled([W::ZERO; K], |i| filled(W::ZERO, |j| unit(i, j) + products(&|p| t(p, i), &|p| t(p, j))));
+        let right = filled(W::ZERO, |q| products(&|p| t(p, q), &|p| self.x[p]));
         let dropped = solve(&normal, &right, &[W::ONE; K], 0.0).x;
-        core::array::from_fn(|k| {
+        filled(W::ZERO, |k| {
             let moved = (0..K).fold(self.x[k], |x, q| x - t(k, q) * dropped[q]);
             W::select(is_determined(k), planted!("minimum_norm": moved, self.x[k]), dropped[k])
         })

@@ -1,5 +1,6 @@
 //! Several packs side by side: RGB, wavelengths, pixels.
 
+use crate::filled::filled;
 use crate::lanes::Lanes;
 use core::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
 
@@ -24,8 +25,11 @@ pub struct Spectrum<L, const K: usize>(pub [L; K]);
 impl<L: Lanes, const K: usize> Spectrum<L, K> {
     /// Combines two spectra pack by pack.
     #[inline(always)]
-    fn zip(self, other: Self, mut combine: impl FnMut(L, L) -> L) -> Self {
-        Self(core::array::from_fn(|pack| combine(self.0[pack], other.0[pack])))
+    fn zip(mut self, other: Self, mut combine: impl FnMut(L, L) -> L) -> Self {
+        for (ours, theirs) in self.0.iter_mut().zip(other.0) {
+            *ours = combine(*ours, theirs);
+        }
+        self
     }
 }
 
@@ -47,7 +51,7 @@ impl<L: Lanes, const K: usize> Neg for Spectrum<L, K> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(self.0.map(L::neg))
+        Self(filled(L::ZERO, |pack| -self.0[pack]))
     }
 }
 
@@ -81,7 +85,7 @@ impl<L: Lanes, const K: usize> Lanes for Spectrum<L, K> {
     }
     #[inline(always)]
     fn from_fn(mut lane: impl FnMut(usize) -> L::Scalar) -> Self {
-        Self(core::array::from_fn(|pack| L::from_fn(|i| lane(pack * L::LANES + i))))
+        Self(filled(L::ZERO, |pack| L::from_fn(|i| lane(pack * L::LANES + i))))
     }
     #[inline(always)]
     fn get(&self, lane: usize) -> L::Scalar {
@@ -89,23 +93,23 @@ impl<L: Lanes, const K: usize> Lanes for Spectrum<L, K> {
     }
     #[inline(always)]
     fn widen(self) -> Self::Wide {
-        Spectrum(self.0.map(L::widen))
+        Spectrum(filled(L::Wide::ZERO, |pack| self.0[pack].widen()))
     }
     #[inline(always)]
     fn narrow(wide: Self::Wide) -> Self {
-        Self(wide.0.map(L::narrow))
+        Self(filled(L::ZERO, |pack| L::narrow(wide.0[pack])))
     }
     #[inline(always)]
     fn lt(self, other: Self) -> Self::Mask {
-        core::array::from_fn(|pack| self.0[pack].lt(other.0[pack]))
+        filled(L::ZERO.lt(L::ZERO), |pack| self.0[pack].lt(other.0[pack]))
     }
     #[inline(always)]
     fn equal(self, other: Self) -> Self::Mask {
-        core::array::from_fn(|pack| self.0[pack].equal(other.0[pack]))
+        filled(L::ZERO.lt(L::ZERO), |pack| self.0[pack].equal(other.0[pack]))
     }
     #[inline(always)]
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
-        Self(core::array::from_fn(|pack| L::select(mask[pack], yes.0[pack], no.0[pack])))
+        Self(filled(L::ZERO, |pack| L::select(mask[pack], yes.0[pack], no.0[pack])))
     }
 }
 

@@ -17,20 +17,37 @@ use crate::lanes::Lanes;
 /// alone. These are the functions of `conformance`.
 ///
 /// # Implementing
-/// Implement [`Takes`](crate::moments::Takes) and use [`Blocked`](crate::moments::Blocked).
+/// Implement [`Takes`](crate::moments::Takes) and use [`Blocked`](crate::moments::Blocked). Otherwise, leave
+/// `add_from` as it is only if `add_batch` adds one by one too.
 pub trait Accumulate<D> {
     /// Adds one draw.
     fn add(&mut self, draw: D);
-    /// Adds draws in order: faster than one by one from 64 draws on.
+    /// Adds draws in order: faster than one by one from 64 draws on, fastest from 1024 on.
     fn add_batch(&mut self, draws: &[D]);
+    /// Adds `count` draws that are made one after another: the bits of [`add_batch`](Self::add_batch) of all of
+    /// them at once, in the memory of 64.
+    ///
+    /// ```
+    /// use ratiocv_core::{moments::{Accumulate, Moments, Sums}, Draw};
+    /// let (mut moments, mut x) = (Sums::<f64>::default(), 0.0);
+    /// moments.add_from(1000, || {
+    ///     x += 1.0;
+    ///     Draw::new(x, 2.0)
+    /// });
+    /// assert_eq!((moments.count(), x), (1000, 1000.0));
+    /// ```
+    fn add_from(&mut self, count: u64, mut draw: impl FnMut() -> D) {
+        for _ in 0..count {
+            self.add(draw());
+        }
+    }
 }
 
 /// The entry for renderers that keep f and h of their samples in arrays of their own.
 ///
 /// *Implemented by* every accumulator of draws with one auxiliary; *called by* such renderers.
 pub trait AccumulateSlices<V: Lanes>: Accumulate<Draw<V>> {
-    /// Adds the draws (`f[i]`, `h[i]`) in order: the same bits as [`add_batch`](Accumulate::add_batch)
-    /// of them in calls of [`BLOCK`](super::BLOCK) draws.
+    /// Adds the draws (`f[i]`, `h[i]`) in order: the same bits as [`add_batch`](Accumulate::add_batch) of them.
     ///
     /// ```
     /// use ratiocv_core::{moments::{AccumulateSlices, Moments, Sums}, Error};
@@ -45,22 +62,13 @@ pub trait AccumulateSlices<V: Lanes>: Accumulate<Draw<V>> {
     ///
     /// # Errors
     /// [`Error::LengthMismatch`] if there are not as many `h` as `f`; then nothing is added.
-    fn add_slices(&mut self, f: &[V], h: &[V]) -> Result<(), Error> {
-        if f.len() != h.len() {
-            return Err(Error::LengthMismatch { what: "h", expected: f.len(), got: h.len() });
-        }
-        for (f, h) in f.chunks(super::BLOCK).zip(h.chunks(super::BLOCK)) {
-            let mut draws = [Draw::ZERO; super::BLOCK];
-            for ((draw, f), h) in draws.iter_mut().zip(f).zip(h) {
-                *draw = Draw::new(*f, *h);
-            }
-            self.add_batch(draws.get(..f.len()).unwrap_or_default());
-        }
-        Ok(())
-    }
+    fn add_slices(&mut self, f: &[V], h: &[V]) -> Result<(), Error>;
 }
 
-impl<V: Lanes, M: Accumulate<Draw<V>>> AccumulateSlices<V> for M {}
+/// As many `h` as `f`.
+pub(crate) fn same_length<V>(f: &[V], h: &[V]) -> Result<(), Error> {
+    if f.len() == h.len() { Ok(()) } else { Err(Error::LengthMismatch { what: "h", expected: f.len(), got: h.len() }) }
+}
 
 /// Appends what another accumulator has seen.
 ///
@@ -134,14 +142,24 @@ impl<V: Lanes, A: Accumulate<Draw<V::Wide, K>>, const K: usize> Accumulate<Draw<
     fn add(&mut self, draw: Draw<V, K>) {
         self.inner.add(draw.widen());
     }
+    #[inline]
     fn add_batch(&mut self, draws: &[Draw<V, K>]) {
-        let (blocks, tail) = draws.as_chunks::<{ super::BLOCK }>();
-        for block in blocks {
-            self.inner.add_batch(&block.map(|draw| draw.widen()));
-        }
-        for draw in tail {
-            self.add(*draw);
-        }
+        let mut draws = draws.iter();
+        let count = draws.len() as u64;
+        self.inner.add_from(count, || draws.next().map_or(Draw::ZERO, Draw::widen));
+    }
+    #[inline]
+    fn add_from(&mut self, count: u64, mut draw: impl FnMut() -> Draw<V, K>) {
+        self.inner.add_from(count, || draw().widen());
+    }
+}
+
+impl<V: Lanes, A: Accumulate<Draw<V::Wide>>> AccumulateSlices<V> for Widened<V, A> {
+    fn add_slices(&mut self, f: &[V], h: &[V]) -> Result<(), Error> {
+        same_length(f, h)?;
+        let mut draws = f.iter().zip(h);
+        self.inner.add_from(f.len() as u64, || draws.next().map_or(Draw::ZERO, |(f, h)| Draw::new(*f, *h).widen()));
+        Ok(())
     }
 }
 

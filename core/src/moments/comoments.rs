@@ -15,12 +15,14 @@
 //! slope that the state knew when the block was opened.
 
 use crate::draw::Draw;
+use crate::filled::filled;
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes, larger_first, partials};
+use crate::moments::blocked::{Blocked, Kernel, State, Takes, lanes_beside, larger_first, partials};
 use crate::moments::range::{magnitude, smallest_square, unless_underflowed};
 use crate::moments::read::{HasComoments, HasMeans, Means, Spread};
 use crate::planted::planted;
 use crate::solve::solve;
+use crate::spectrum::Spectrum;
 use core::array;
 
 /// Means and second co-moments of f and `K` auxiliaries: the error-bar tier of every estimator that
@@ -78,7 +80,8 @@ impl<V: Lanes, const K: usize> Squares<V, K> {
 
     #[inline(always)]
     fn map<U: Lanes>(&self, change: impl Fn(V) -> U) -> Squares<U, K> {
-        let mut mapped = Squares { ee: change(self.ee), eh: self.eh.map(&change), hh: [[U::ZERO; K]; K] };
+        let mut mapped =
+            Squares { ee: change(self.ee), eh: filled(U::ZERO, |k| change(self.eh[k])), hh: [[U::ZERO; K]; K] };
         for i in 0..K {
             for j in 0..=i {
                 mapped.hh[i][j] = change(self.hh[i][j]);
@@ -155,15 +158,29 @@ fn residual<V: Lanes, const K: usize>(f: V, slope: &[V; K], h: &[V; K]) -> V {
     (0..K).fold(f, |e, k| e - slope[k] * h[k])
 }
 
+impl<V: Lanes, const K: usize> ComomentsBlock<V, K> {
+    #[inline(always)]
+    fn map<U: Lanes>(&self, change: impl Fn(V) -> U) -> ComomentsBlock<U, K> {
+        ComomentsBlock {
+            shift: self.shift.map(&change),
+            slope: filled(U::ZERO, |k| change(self.slope[k])),
+            f: change(self.f),
+            h: filled(U::ZERO, |k| change(self.h[k])),
+            squares: self.squares.map(&change),
+        }
+    }
+}
+
 impl<V: Lanes, const K: usize> Kernel for ComomentsBlock<V, K> {
     type State = ComomentsState<V::Wide, K>;
     const PARTIALS: usize = partials(V::LANES);
+    lanes_beside!(ComomentsBlock<Spectrum<V, P>, K>);
 
     #[inline(always)]
     fn empty(state: &Self::State) -> Self {
         Self {
             shift: Draw::ZERO,
-            slope: state.slope.map(V::narrow),
+            slope: filled(V::ZERO, |k| V::narrow(state.slope[k])),
             f: V::ZERO,
             h: [V::ZERO; K],
             squares: Squares::ZERO,
@@ -180,8 +197,8 @@ impl<V: Lanes, const K: usize> Kernel for ComomentsBlock<V, K> {
     #[inline(always)]
     fn close(&self, _: &Self::State, count: u64) -> Self::State {
         let count = V::Wide::splat(count as f64);
-        let slope = self.slope.map(V::widen);
-        let (f, h) = (self.f.widen() / count, self.h.map(|h| h.widen() / count));
+        let slope = filled(V::Wide::ZERO, |k| self.slope[k].widen());
+        let (f, h) = (self.f.widen() / count, filled(V::Wide::ZERO, |k| self.h[k].widen() / count));
         let e = residual(f, &slope, &h);
         let mut squares = self.squares.map(V::widen);
         squares.add_times(e, &h, -count);
@@ -209,13 +226,17 @@ impl<V: Lanes, const K: usize> Takes<Draw<V, K>> for ComomentsBlock<V, K> {
     #[inline(always)]
     fn add(&mut self, _: usize, draw: &Draw<V, K>) {
         let f = draw.f - self.shift.f;
-        let h: [V; K] = array::from_fn(|k| draw.h[k] - self.shift.h[k]);
+        let h: [V; K] = filled(V::ZERO, |k| draw.h[k] - self.shift.h[k]);
         let e = residual(f, &self.slope, &h);
         self.f = self.f + f;
         for (sum, h) in self.h.iter_mut().zip(h) {
             *sum = *sum + h;
         }
         self.squares.add(e, &h);
+    }
+    #[inline(always)]
+    fn add_beside<const P: usize>(parts: &mut Self::Beside<P>, index: usize, draws: &[Draw<V, K>; P]) {
+        parts.add(index, &Draw::side_by_side(draws));
     }
 }
 
@@ -231,18 +252,18 @@ impl<W: Lanes<Scalar = f64, Wide = W>, const K: usize> ComomentsState<W, K> {
     /// tell: a slope fitted to noise would be huge, and bury the residuals of later draws under rounding.
     #[inline(always)]
     fn fitted_slopes(fh: [W; K], hh: &Squares<W, K>, mean_h: [W; K], known: [W; K]) -> [W; K] {
-        let spreads: [W; K] = array::from_fn(|k| {
+        let spreads: [W; K] = filled(W::ZERO, |k| {
             let enough = (W::splat(1e-4) * mean_h[k] * mean_h[k]).lt(hh.hh[k][k]);
             W::select(enough, W::ONE, W::ZERO)
         });
-        let kept: [W; K] = array::from_fn(|k| W::select(W::equal(spreads[k], W::ONE), W::ZERO, known[k]));
-        let right = array::from_fn(|k| (0..K).fold(fh[k], |sum, j| sum - kept[j] * hh.hh(k, j)));
-        let matrix = array::from_fn(|i| array::from_fn(|j| hh.hh(i, j)));
+        let kept: [W; K] = filled(W::ZERO, |k| W::select(W::equal(spreads[k], W::ONE), W::ZERO, known[k]));
+        let right = filled(W::ZERO, |k| (0..K).fold(fh[k], |sum, j| sum - kept[j] * hh.hh(k, j)));
+        let matrix = filled([W::ZERO; K], |i| filled(W::ZERO, |j| hh.hh(i, j)));
         // Any slopes will do; those of nearly dependent auxiliaries would only be large.
         let fit = solve(&matrix, &right, &spreads, 1e-9);
         // One slope that is not a number would spoil the residuals of all.
         let finite = (0..K).fold(W::ZERO, |sum, k| sum + fit.x[k] * W::ZERO);
-        array::from_fn(|k| {
+        filled(W::ZERO, |k| {
             let fitted = W::select(W::equal(spreads[k], W::ONE), fit.x[k], known[k]);
             W::select(W::equal(finite, W::ZERO), fitted, known[k])
         })
@@ -252,7 +273,7 @@ impl<W: Lanes<Scalar = f64, Wide = W>, const K: usize> ComomentsState<W, K> {
     #[inline(always)]
     fn with_slopes(mut self, slope: &[W; K]) -> Self {
         let turn: [W; K] =
-            array::from_fn(|k| planted!("comoments_turn": slope[k] - self.slope[k], self.slope[k] - slope[k]));
+            filled(W::ZERO, |k| planted!("comoments_turn": slope[k] - self.slope[k], self.slope[k] - slope[k]));
         let before = self.squares.eh;
         for k in 0..K {
             let along = (0..K).fold(W::ZERO, |sum, j| sum + turn[j] * self.squares.hh(k, j));
@@ -277,18 +298,18 @@ impl<W: Lanes<Scalar = f64, Wide = W>, const K: usize> State for ComomentsState<
         let (fraction, weight) = (W::splat(fraction), W::splat(weight));
         let anchors = small.anchor.zip(large.anchor, W::sub);
         let f = anchors.f + (small.f - large.f);
-        let h = array::from_fn(|k| anchors.h[k] + (small.h[k] - large.h[k]));
-        let mean_h = array::from_fn(|k| large.h[k] + h[k] * fraction);
+        let h = filled(W::ZERO, |k| anchors.h[k] + (small.h[k] - large.h[k]));
+        let mean_h = filled(W::ZERO, |k| large.h[k] + h[k] * fraction);
         let mut joint = large.squares;
         joint.add_all(&small.squares);
         joint.add_times(W::ZERO, &h, weight);
-        let fh = array::from_fn(|k| large.fh(k) + small.fh(k) + f * h[k] * weight);
-        let absolute = array::from_fn(|k| large.anchor.h[k] + mean_h[k]);
+        let fh = filled(W::ZERO, |k| large.fh(k) + small.fh(k) + f * h[k] * weight);
+        let absolute = filled(W::ZERO, |k| large.anchor.h[k] + mean_h[k]);
         let slope = Self::fitted_slopes(fh, &joint, absolute, large.slope);
         let (a, b) = (large.with_slopes(&slope), small.with_slopes(&slope));
         let e = residual(f, &slope, &h);
         joint.ee = a.squares.ee + b.squares.ee + e * e * weight;
-        joint.eh = array::from_fn(|k| a.squares.eh[k] + b.squares.eh[k] + e * h[k] * weight);
+        joint.eh = filled(W::ZERO, |k| a.squares.eh[k] + b.squares.eh[k] + e * h[k] * weight);
         *self = Self {
             anchor: large.anchor,
             f: large.f + f * fraction,

@@ -2,8 +2,9 @@
 
 use crate::draw::Draw;
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes, partials};
+use crate::moments::blocked::{Blocked, Kernel, State, Takes, lanes_beside, partials};
 use crate::moments::read::Tails;
+use crate::spectrum::Spectrum;
 
 /// Σ|f|, Σ|h|, the largest |f|, and how many draws had h = 0. Joined to an estimator's moments (see
 /// [`Joined`](crate::moments::Joined)) it makes the diagnostic tier: HEAVY_TAIL, and DENOM_ILL by
@@ -61,6 +62,7 @@ impl<V: Lanes> ExtremesBlock<V> {
 impl<V: Lanes> Kernel for ExtremesBlock<V> {
     type State = ExtremesState<V::Wide>;
     const PARTIALS: usize = partials(V::LANES);
+    lanes_beside!(ExtremesBlock<Spectrum<V, P>>);
 
     #[inline(always)]
     fn empty(_: &Self::State) -> Self {
@@ -91,6 +93,10 @@ impl<V: Lanes> Takes<Draw<V>> for ExtremesBlock<V> {
             nothing: if_zero(h, if_zero(draw.f, V::ONE, V::ZERO), V::ZERO),
             unbounded: if_zero(h, if_zero(draw.f, V::ZERO, V::ONE), V::ZERO),
         });
+    }
+    #[inline(always)]
+    fn add_beside<const P: usize>(parts: &mut Self::Beside<P>, index: usize, draws: &[Draw<V>; P]) {
+        parts.add(index, &Draw::side_by_side(draws));
     }
 }
 

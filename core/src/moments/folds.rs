@@ -1,6 +1,6 @@
 //! Two folds of the draws, each with moments of its own.
 
-use crate::moments::blocked::{Blocked, Kernel, State, Takes};
+use crate::moments::blocked::{Blocked, Kernel, State, Takes, add_to_each, kernels_beside};
 use crate::moments::groups::size;
 use crate::moments::read::HasFolds;
 use crate::planted::planted;
@@ -35,6 +35,7 @@ impl<B: Kernel<State: Default>> Kernel for FoldsBlock<B> {
     type State = FoldsState<B::State>;
     // Draws go to the folds by their number, as they go to partial sums.
     const PARTIALS: usize = 1;
+    kernels_beside!();
 
     #[inline(always)]
     fn empty(state: &Self::State) -> Self {
@@ -64,6 +65,10 @@ impl<D, B: Takes<D> + Kernel<State: Default>> Takes<D> for FoldsBlock<B> {
     #[inline(always)]
     fn add(&mut self, index: usize, draw: &D) {
         self.0[index % 2].add(index / 2, draw);
+    }
+    #[inline(always)]
+    fn add_beside<const P: usize>(parts: &mut Self::Beside<P>, index: usize, draws: &[D; P]) {
+        add_to_each(parts, index, draws);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::draw::Draw;
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes};
+use crate::moments::blocked::{Blocked, Kernel, State, Takes, add_to_each, kernels_beside};
 use crate::moments::read::{Group, HasGroups, HasMeans, Means};
 use crate::planted::planted;
 
@@ -55,6 +55,7 @@ impl<V: Lanes, const G: usize, const K: usize> Kernel for GroupsBlock<V, G, K> {
     type State = GroupsState<V::Wide, G, K>;
     // The groups are partial sums already.
     const PARTIALS: usize = 1;
+    kernels_beside!();
 
     #[inline(always)]
     fn empty(_: &Self::State) -> Self {
@@ -86,6 +87,10 @@ impl<V: Lanes, const G: usize, const K: usize> Takes<Draw<V, K>> for GroupsBlock
     fn add(&mut self, index: usize, draw: &Draw<V, K>) {
         let sum = &mut self.sums[index % G];
         *sum = sum.zip(*draw, V::add);
+    }
+    #[inline(always)]
+    fn add_beside<const P: usize>(parts: &mut Self::Beside<P>, index: usize, draws: &[Draw<V, K>; P]) {
+        add_to_each(parts, index, draws);
     }
 }
 

@@ -40,12 +40,19 @@ pub struct Joined<B, R = (), G = (), E = (), T = (), F = ()> {
 impl Kernel for () {
     type State = ();
     const PARTIALS: usize = 1;
+    type Beside<const P: usize> = ();
     #[inline(always)]
     fn empty((): &()) {}
     #[inline(always)]
     fn fold(&mut self, (): &()) {}
     #[inline(always)]
     fn close(&self, (): &(), _: u64) {}
+    #[inline(always)]
+    fn beside<const P: usize>(&self) {}
+    #[inline(always)]
+    fn part<const P: usize>((): &(), _: usize) {}
+    #[inline(always)]
+    fn fold_beside<const P: usize>((): &mut (), (): &()) {}
 }
 
 impl<D> Takes<D> for () {
@@ -53,6 +60,8 @@ impl<D> Takes<D> for () {
     fn begin(&mut self, _: usize, _: &D) {}
     #[inline(always)]
     fn add(&mut self, _: usize, _: &D) {}
+    #[inline(always)]
+    fn add_beside<const P: usize>((): &mut (), _: usize, _: &[D; P]) {}
 }
 
 impl State for () {
@@ -66,6 +75,7 @@ impl State for () {
 impl<B: Kernel, const L: usize> Kernel for [B; L] {
     type State = [B::State; L];
     const PARTIALS: usize = B::PARTIALS;
+    type Beside<const P: usize> = [B::Beside<P>; L];
     #[inline(always)]
     fn empty(state: &Self::State) -> Self {
         core::array::from_fn(|i| B::empty(&state[i]))
@@ -80,6 +90,20 @@ impl<B: Kernel, const L: usize> Kernel for [B; L] {
     fn close(&self, state: &Self::State, count: u64) -> Self::State {
         core::array::from_fn(|i| self[i].close(&state[i], count))
     }
+    #[inline(always)]
+    fn beside<const P: usize>(&self) -> Self::Beside<P> {
+        core::array::from_fn(|i| self[i].beside())
+    }
+    #[inline(always)]
+    fn part<const P: usize>(parts: &Self::Beside<P>, part: usize) -> Self {
+        core::array::from_fn(|i| B::part(&parts[i], part))
+    }
+    #[inline(always)]
+    fn fold_beside<const P: usize>(parts: &mut Self::Beside<P>, others: &Self::Beside<P>) {
+        for (part, other) in parts.iter_mut().zip(others) {
+            B::fold_beside(part, other);
+        }
+    }
 }
 
 impl<D, B: Takes<D>, const L: usize> Takes<D> for [B; L] {
@@ -93,6 +117,12 @@ impl<D, B: Takes<D>, const L: usize> Takes<D> for [B; L] {
     fn add(&mut self, index: usize, draw: &D) {
         for block in self {
             block.add(index, draw);
+        }
+    }
+    #[inline(always)]
+    fn add_beside<const P: usize>(parts: &mut Self::Beside<P>, index: usize, draws: &[D; P]) {
+        for part in parts {
+            B::add_beside(part, index, draws);
         }
     }
 }
@@ -113,6 +143,8 @@ impl<S: State, const L: usize> State for [S; L] {
 impl<B: Kernel, R: Kernel, G: Kernel, E: Kernel, T: Kernel, F: Kernel> Kernel for Joined<B, R, G, E, T, F> {
     type State = Joined<B::State, R::State, G::State, E::State, T::State, F::State>;
     const PARTIALS: usize = B::PARTIALS;
+    type Beside<const P: usize> =
+        Joined<B::Beside<P>, R::Beside<P>, G::Beside<P>, E::Beside<P>, T::Beside<P>, F::Beside<P>>;
     #[inline(always)]
     fn empty(state: &Self::State) -> Self {
         Self {
@@ -144,6 +176,37 @@ impl<B: Kernel, R: Kernel, G: Kernel, E: Kernel, T: Kernel, F: Kernel> Kernel fo
             folds: self.folds.close(&state.folds, count),
         }
     }
+    #[inline(always)]
+    fn beside<const P: usize>(&self) -> Self::Beside<P> {
+        Joined {
+            base: self.base.beside(),
+            ratios: self.ratios.beside(),
+            groups: self.groups.beside(),
+            extremes: self.extremes.beside(),
+            third: self.third.beside(),
+            folds: self.folds.beside(),
+        }
+    }
+    #[inline(always)]
+    fn part<const P: usize>(parts: &Self::Beside<P>, part: usize) -> Self {
+        Self {
+            base: B::part(&parts.base, part),
+            ratios: R::part(&parts.ratios, part),
+            groups: G::part(&parts.groups, part),
+            extremes: E::part(&parts.extremes, part),
+            third: T::part(&parts.third, part),
+            folds: F::part(&parts.folds, part),
+        }
+    }
+    #[inline(always)]
+    fn fold_beside<const P: usize>(parts: &mut Self::Beside<P>, others: &Self::Beside<P>) {
+        B::fold_beside(&mut parts.base, &others.base);
+        R::fold_beside(&mut parts.ratios, &others.ratios);
+        G::fold_beside(&mut parts.groups, &others.groups);
+        E::fold_beside(&mut parts.extremes, &others.extremes);
+        T::fold_beside(&mut parts.third, &others.third);
+        F::fold_beside(&mut parts.folds, &others.folds);
+    }
 }
 
 impl<D, B, R, G, E, T, F> Takes<D> for Joined<B, R, G, E, T, F>
@@ -172,6 +235,15 @@ where
         self.extremes.add(index, draw);
         self.third.add(index, draw);
         self.folds.add(index, draw);
+    }
+    #[inline(always)]
+    fn add_beside<const P: usize>(parts: &mut Self::Beside<P>, index: usize, draws: &[D; P]) {
+        B::add_beside(&mut parts.base, index, draws);
+        R::add_beside(&mut parts.ratios, index, draws);
+        G::add_beside(&mut parts.groups, index, draws);
+        E::add_beside(&mut parts.extremes, index, draws);
+        T::add_beside(&mut parts.third, index, draws);
+        F::add_beside(&mut parts.folds, index, draws);
     }
 }
 

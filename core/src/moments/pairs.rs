@@ -2,7 +2,7 @@
 
 use crate::draw::Draw;
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes};
+use crate::moments::blocked::{Blocked, Kernel, State, Takes, add_to_each, kernels_beside};
 use crate::moments::groups::{GroupsBlock, GroupsState};
 use crate::moments::read::{Group, HasGroups, HasPairs};
 
@@ -59,6 +59,7 @@ impl<W: Lanes, const K: usize, const G: usize> Default for PairsState<W, K, G> {
 impl<V: Lanes, const K: usize, const G: usize> Kernel for PairsBlock<V, K, G> {
     type State = PairsState<V::Wide, K, G>;
     const PARTIALS: usize = 1;
+    kernels_beside!();
 
     #[inline(always)]
     fn empty(state: &Self::State) -> Self {
@@ -82,6 +83,10 @@ impl<V: Lanes, const K: usize, const G: usize> Takes<Pairs<V, K>> for PairsBlock
         for (groups, draw) in self.0.iter_mut().zip(&pairs.0) {
             groups.add(index, draw);
         }
+    }
+    #[inline(always)]
+    fn add_beside<const P: usize>(parts: &mut Self::Beside<P>, index: usize, draws: &[Pairs<V, K>; P]) {
+        add_to_each(parts, index, draws);
     }
 }
 

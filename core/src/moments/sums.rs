@@ -2,9 +2,10 @@
 
 use crate::draw::Draw;
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes, larger_first, partials};
+use crate::moments::blocked::{Blocked, Kernel, State, Takes, lanes_beside, larger_first, partials};
 use crate::moments::read::{HasMeans, Means};
 use crate::planted::planted;
+use crate::spectrum::Spectrum;
 
 /// Means of f and of `K` auxiliaries, and nothing else: what plain Monte Carlo (`K = 0`) and the
 /// ratio of means (`K = 1`) need for a value. The standard error is unknown (NaN).
@@ -45,9 +46,17 @@ impl<W: Lanes, const K: usize> Default for SumsState<W, K> {
     }
 }
 
+impl<V: Lanes, const K: usize> SumsBlock<V, K> {
+    #[inline(always)]
+    fn map<U: Lanes>(&self, mut change: impl FnMut(V) -> U) -> SumsBlock<U, K> {
+        SumsBlock { shift: self.shift.map(&mut change), sum: self.sum.map(change) }
+    }
+}
+
 impl<V: Lanes, const K: usize> Kernel for SumsBlock<V, K> {
     type State = SumsState<V::Wide, K>;
     const PARTIALS: usize = partials(V::LANES);
+    lanes_beside!(SumsBlock<Spectrum<V, P>, K>);
 
     #[inline(always)]
     fn empty(_: &Self::State) -> Self {
@@ -74,6 +83,10 @@ impl<V: Lanes, const K: usize> Takes<Draw<V, K>> for SumsBlock<V, K> {
     #[inline(always)]
     fn add(&mut self, _: usize, draw: &Draw<V, K>) {
         self.sum = self.sum.zip(draw.zip(self.shift, V::sub), V::add);
+    }
+    #[inline(always)]
+    fn add_beside<const P: usize>(parts: &mut Self::Beside<P>, index: usize, draws: &[Draw<V, K>; P]) {
+        parts.add(index, &Draw::side_by_side(draws));
     }
 }
 

@@ -2,8 +2,9 @@
 
 use crate::draw::Draw;
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes, larger_first, partials};
+use crate::moments::blocked::{Blocked, Kernel, State, Takes, lanes_beside, larger_first, partials};
 use crate::moments::read::{HasThirdMoments, ThirdMoments};
+use crate::spectrum::Spectrum;
 
 /// Third central moments of f and one auxiliary. No estimator reads them; `predict` does.
 pub type Third<V> = Blocked<V, ThirdBlock<V>>;
@@ -83,9 +84,17 @@ impl<W: Lanes> Default for ThirdState<W> {
     }
 }
 
+impl<V: Lanes> ThirdBlock<V> {
+    #[inline(always)]
+    fn map<U: Lanes>(&self, change: impl Fn(V) -> U) -> ThirdBlock<U> {
+        ThirdBlock { shift: self.shift.map(&change), sums: self.sums.map(change) }
+    }
+}
+
 impl<V: Lanes> Kernel for ThirdBlock<V> {
     type State = ThirdState<V::Wide>;
     const PARTIALS: usize = partials(V::LANES);
+    lanes_beside!(ThirdBlock<Spectrum<V, P>>);
 
     #[inline(always)]
     fn empty(_: &Self::State) -> Self {
@@ -131,6 +140,10 @@ impl<V: Lanes> Takes<Draw<V>> for ThirdBlock<V> {
         let (hh, hf, ff) = (h * h, h * f, f * f);
         let powers = Powers { f, h, hh, hf, ff, hhh: hh * h, hhf: hh * f, hff: h * ff };
         self.sums = self.sums.zip(powers, V::add);
+    }
+    #[inline(always)]
+    fn add_beside<const P: usize>(parts: &mut Self::Beside<P>, index: usize, draws: &[Draw<V>; P]) {
+        parts.add(index, &Draw::side_by_side(draws));
     }
 }
 

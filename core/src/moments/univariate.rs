@@ -2,12 +2,14 @@
 
 use crate::draw::Draw;
 use crate::error::{Error, weight_in_range};
+use crate::filled::filled;
 use crate::integrals::Integrals;
 use crate::lanes::Lanes;
 use crate::moments::blocked::{Blocked, Kernel, State, Takes, larger_first, partials};
 use crate::moments::range::{magnitude, smallest_square, unless_underflowed};
 use crate::moments::read::{HasMeans, HasRatioMean, Means, RatioMoments, Spread};
 use crate::planted::planted;
+use crate::spectrum::Spectrum;
 
 /// A number that each draw yields, per channel.
 ///
@@ -83,11 +85,11 @@ impl<V: Lanes> Quantity for RatioOf<V> {
 
 /// Mean and, with `S` = 1, sum of squares about it, of a [`Quantity`]: the block kernel.
 #[derive(Clone, Copy, Debug)]
-pub struct UnivariateBlock<Q: Quantity, const S: usize> {
+pub struct UnivariateBlock<Q: Quantity, const S: usize, L = <Q as Quantity>::Lanes> {
     quantity: Q,
-    shift: Q::Lanes,
-    sum: Q::Lanes,
-    squares: [Q::Lanes; S],
+    shift: L,
+    sum: L,
+    squares: [L; S],
 }
 
 /// The state of a [`UnivariateBlock`] stream: parameters, anchor, mean relative to it, squares.
@@ -146,9 +148,37 @@ impl<Q: Default, W: Lanes, const S: usize> Default for UnivariateState<Q, W, S> 
     }
 }
 
+impl<Q: Quantity, const S: usize, L: Lanes> UnivariateBlock<Q, S, L> {
+    #[inline(always)]
+    fn take(&mut self, x: L) {
+        let x = x - self.shift;
+        self.sum = self.sum + x;
+        for squares in &mut self.squares {
+            *squares = *squares + x * x;
+        }
+    }
+    #[inline(always)]
+    fn join(&mut self, other: &Self) {
+        self.sum = self.sum + other.sum;
+        for (squares, other) in self.squares.iter_mut().zip(other.squares) {
+            *squares = *squares + other;
+        }
+    }
+    #[inline(always)]
+    fn map<U: Lanes>(&self, change: impl Fn(L) -> U) -> UnivariateBlock<Q, S, U> {
+        UnivariateBlock {
+            quantity: self.quantity,
+            shift: change(self.shift),
+            sum: change(self.sum),
+            squares: filled(U::ZERO, |i| change(self.squares[i])),
+        }
+    }
+}
+
 impl<Q: Quantity, const S: usize> Kernel for UnivariateBlock<Q, S> {
     type State = UnivariateState<Q, <Q::Lanes as Lanes>::Wide, S>;
     const PARTIALS: usize = partials(<Q::Lanes as Lanes>::LANES);
+    type Beside<const P: usize> = UnivariateBlock<Q, S, Spectrum<Q::Lanes, P>>;
 
     #[inline(always)]
     fn empty(state: &Self::State) -> Self {
@@ -156,17 +186,26 @@ impl<Q: Quantity, const S: usize> Kernel for UnivariateBlock<Q, S> {
     }
     #[inline(always)]
     fn fold(&mut self, other: &Self) {
-        self.sum = self.sum + other.sum;
-        for (squares, other) in self.squares.iter_mut().zip(other.squares) {
-            *squares = *squares + other;
-        }
+        self.join(other);
+    }
+    #[inline(always)]
+    fn beside<const P: usize>(&self) -> Self::Beside<P> {
+        self.map(|lanes| Spectrum([lanes; P]))
+    }
+    #[inline(always)]
+    fn part<const P: usize>(parts: &Self::Beside<P>, part: usize) -> Self {
+        parts.map(|lanes| lanes.0[part])
+    }
+    #[inline(always)]
+    fn fold_beside<const P: usize>(parts: &mut Self::Beside<P>, others: &Self::Beside<P>) {
+        parts.join(others);
     }
     #[inline(always)]
     fn close(&self, _: &Self::State, count: u64) -> Self::State {
         let count = <Q::Lanes as Lanes>::Wide::splat(count as f64);
         let relative = self.sum.widen() / count;
-        let squares = self.squares.map(|squares| {
-            let squares = magnitude(squares.widen() - relative * relative * count);
+        let squares = filled(<Q::Lanes as Lanes>::Wide::ZERO, |i| {
+            let squares = magnitude(self.squares[i].widen() - relative * relative * count);
             unless_underflowed(squares, squares, relative, smallest_square::<Q::Lanes>())
         });
         UnivariateState { quantity: self.quantity, anchor: self.shift.widen(), relative, squares }
@@ -182,11 +221,11 @@ impl<Q: Quantity, const S: usize> Takes<Q::Draw> for UnivariateBlock<Q, S> {
     }
     #[inline(always)]
     fn add(&mut self, _: usize, draw: &Q::Draw) {
-        let x = self.quantity.of(draw) - self.shift;
-        self.sum = self.sum + x;
-        for squares in &mut self.squares {
-            *squares = *squares + x * x;
-        }
+        self.take(self.quantity.of(draw));
+    }
+    #[inline(always)]
+    fn add_beside<const P: usize>(parts: &mut Self::Beside<P>, _: usize, draws: &[Q::Draw; P]) {
+        parts.take(Spectrum(filled(Q::Lanes::ZERO, |i| parts.quantity.of(&draws[i]))));
     }
 }
 
@@ -198,7 +237,7 @@ impl<Q: Quantity, W: Lanes<Scalar = f64, Wide = W>, const S: usize> State for Un
         let (large, small, fraction) = larger_first(*self, count, *later, later_count);
         let weight = W::splat(count.max(later_count) as f64 * fraction);
         let apart = (small.anchor - large.anchor) + (small.relative - large.relative);
-        let squares = core::array::from_fn(|i| {
+        let squares = filled(W::ZERO, |i| {
             let joint = large.squares[i] + small.squares[i] + apart * apart * weight;
             unless_underflowed(joint, joint, apart, smallest_square::<W>())
         });

@@ -6,7 +6,7 @@ use crate::estimate::Estimate;
 use crate::estimator::{Estimator, Reads};
 use crate::integrals::Integrals;
 use crate::lanes::Lanes;
-use crate::moments::{Accumulate, BLOCK, Moments};
+use crate::moments::{Accumulate, Moments};
 use crate::problem::{Auxiliaries, Integrand, Proposal};
 use core::marker::PhantomData;
 use rand_core::Rng;
@@ -104,18 +104,14 @@ impl<F: Integrand<X>, A, P: Proposal<Point = X>, X> Problem<F, A, P, X> {
         self.auxiliaries.integrals()
     }
 
-    /// Adds `draws` draws to `moments`, a block at a time.
+    /// Adds `draws` draws to `moments`.
+    #[inline]
     pub fn accumulate<M, R: Rng + ?Sized, const K: usize>(&self, moments: &mut M, draws: u64, rng: &mut R)
     where
         A: Auxiliaries<X, F::Value, K>,
         M: Accumulate<Draw<F::Value, K>>,
     {
-        for _ in 0..draws / BLOCK as u64 {
-            moments.add_batch(&core::array::from_fn::<_, BLOCK, _>(|_| self.draw(rng)));
-        }
-        for _ in 0..draws % BLOCK as u64 {
-            moments.add(self.draw(rng));
-        }
+        moments.add_from(draws, || self.draw(rng));
     }
 
     /// The estimate of `estimator` from `draws` draws, with the moments that it names for an error
