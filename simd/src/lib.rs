@@ -1,2 +1,7 @@
 //! Channels, pixels or samples side by side: SIMD lanes for `ratiocv-core`.
-#![no_std]
+#![cfg_attr(not(feature = "std"), no_std)]
+#![forbid(unsafe_code)]
+
+mod level;
+
+pub use level::{Level, Work, add_batch, at_best_level};

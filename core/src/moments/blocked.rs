@@ -345,7 +345,8 @@ impl<V, D: Copy, B: Takes<D>> Accumulate<D> for Blocked<V, B> {
         }
     }
 
-    #[inline]
+    // Inlined into whatever level its caller is compiled for.
+    #[inline(always)]
     fn add_batch(&mut self, draws: &[D]) {
         let (singles, rest) = draws.split_at(self.singles(draws.len()));
         let (runs, tail) = rest.as_chunks::<BLOCK>();
@@ -360,7 +361,7 @@ impl<V, D: Copy, B: Takes<D>> Accumulate<D> for Blocked<V, B> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn add_from(&mut self, count: u64, mut draw: impl FnMut() -> D) {
         let singles = self.singles(usize::try_from(count).unwrap_or(usize::MAX)) as u64;
         for _ in 0..singles {
@@ -380,7 +381,7 @@ impl<V, D: Copy, B: Takes<D>> Accumulate<D> for Blocked<V, B> {
 }
 
 impl<V: Lanes, B: Takes<Draw<V>>> AccumulateSlices<V> for Blocked<V, B> {
-    #[inline]
+    #[inline(always)]
     fn add_slices(&mut self, f: &[V], h: &[V]) -> Result<(), Error> {
         same_length(f, h)?;
         let singles = self.singles(f.len());
