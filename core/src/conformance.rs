@@ -16,7 +16,7 @@ use crate::estimator::Estimator;
 use crate::flags::Flags;
 use crate::integrals::Integrals;
 use crate::lanes::{Lanes, Scalar};
-use crate::moments::{Accumulate, Merge, Moments, Pairs};
+use crate::moments::{Accumulate, Merge, Moments, Pairs, Save};
 
 /// A broken law.
 pub type Law = Result<(), &'static str>;
@@ -47,9 +47,9 @@ impl<V: Lanes, const K: usize> Sampled for Pairs<V, K> {
 }
 
 /// An accumulator of draws that estimators can read.
-pub trait Accumulator<D: Sampled>: Accumulate<D> + Merge + Moments<Lanes = D::Lanes> + Clone {}
+pub trait Accumulator<D: Sampled>: Accumulate<D> + Merge + Moments<Lanes = D::Lanes> + Save + Clone {}
 
-impl<D: Sampled, M: Accumulate<D> + Merge + Moments<Lanes = D::Lanes> + Clone> Accumulator<D> for M {}
+impl<D: Sampled, M: Accumulate<D> + Merge + Moments<Lanes = D::Lanes> + Save + Clone> Accumulator<D> for M {}
 
 /// Every law on `draws`, whose estimates may move by `tolerance` (relative) with the way that they
 /// are split.
@@ -68,6 +68,7 @@ pub fn all<D: Sampled, M: Accumulator<D>, E: Estimator<M::Channel, K>, const K: 
     let at = draws.len() / 3;
     whole_is_split(estimator, &empty, draws, at, integrals, tolerance)?;
     bad_channel_is_alone(estimator, &empty, draws, D::Lanes::LANES / 2, integrals)?;
+    saved_goes_on_the_same(estimator, &empty, draws, at, integrals)?;
     scales_exactly(estimator, &empty, draws, integrals)
 }
 
@@ -86,6 +87,12 @@ fn one_by_one<D: Sampled, M: Accumulator<D>>(mut moments: M, draws: &[D]) -> M {
 fn at_once<D: Sampled, M: Accumulator<D>>(mut moments: M, draws: &[D]) -> M {
     moments.add_batch(draws);
     moments
+}
+
+#[inline(never)]
+fn merged<M: Merge>(mut earlier: M, later: &M) -> M {
+    earlier.merge(later);
+    earlier
 }
 
 #[inline(never)]
@@ -262,4 +269,82 @@ pub fn scales_exactly<D: Sampled, M: Accumulator<D>, E: Estimator<M::Channel, K>
         }
     }
     Ok(())
+}
+
+/// An accumulator that is given the words of another one becomes it, whatever it was before: the same
+/// estimate, and the same bits after further draws and merges.
+///
+/// # Errors
+/// If it does not, or if the number of words depends on the draws.
+pub fn saved_goes_on_the_same<D: Sampled, M: Accumulator<D>, E: Estimator<M::Channel, K>, const K: usize>(
+    estimator: &E,
+    empty: &impl Fn(&Integrals<D::Lanes, K>) -> M,
+    draws: &[D],
+    at: usize,
+    integrals: &Integrals<D::Lanes, K>,
+) -> Law {
+    let (earlier, later) = draws.split_at(at.min(draws.len()));
+    for add in [one_by_one::<D, M>, at_once::<D, M>] {
+        let saved = add(empty(integrals), earlier);
+        let closed = saved.closed();
+        if closed.count() != saved.count() {
+            return Err("closing changed the count");
+        }
+        // Into an empty one, and over one with an open block and moments of other draws.
+        for target in [empty(integrals), one_by_one(empty(integrals), later)] {
+            let loaded = copied(&saved, target)?;
+            if loaded.count() != saved.count() || !same_words(&loaded, &closed) {
+                return Err("saved and loaded words differ");
+            }
+            let read = |moments: &M| read(estimator, moments, integrals);
+            same_everywhere(&read(&loaded), &read(&closed), "saving and loading changed the estimate")?;
+            let merged = [merged(loaded.clone(), &saved), merged(closed.clone(), &saved)];
+            same_everywhere(&read(&merged[0]), &read(&merged[1]), "a merge after loading gave other bits")?;
+            let (loaded, closed) = (add(loaded, later), add(closed.clone(), later));
+            same_everywhere(&read(&loaded), &read(&closed), "draws after loading gave other bits")?;
+        }
+    }
+    Ok(())
+}
+
+/// Words that the laws copy at a time: there is no place for all of them.
+const WORDS: usize = 64;
+
+/// `target` with the words of `source`.
+#[inline(never)]
+fn copied<M: Save + Clone>(source: &M, mut target: M) -> Result<M, &'static str> {
+    let (mut source, mut start, mut count) = (source.clone(), 0, [usize::MAX, 0]);
+    while start < count[0] {
+        let mut words = [0; WORDS];
+        count = [0, 0];
+        source.words(&mut |word| {
+            if let Some(copy) = count[0].checked_sub(start).and_then(|i| words.get_mut(i)) {
+                *copy = *word;
+            }
+            count[0] += 1;
+        });
+        target.words(&mut |word| {
+            if let Some(copy) = count[1].checked_sub(start).and_then(|i| words.get(i)) {
+                *word = *copy;
+            }
+            count[1] += 1;
+        });
+        if count[0] != count[1] {
+            return Err("the number of words depends on the draws");
+        }
+        start += WORDS;
+    }
+    Ok(target)
+}
+
+/// Whether two accumulators have the same words; both are closed.
+#[inline(never)]
+fn same_words<M: Save + Clone>(a: &M, b: &M) -> bool {
+    // By a hash (FxHash's step): there is no place for all the words.
+    let digest = |moments: &M| {
+        let mut digest = 0_u64;
+        moments.clone().words(&mut |word| digest = (digest.rotate_left(5) ^ *word).wrapping_mul(0x517c_c1b7_2722_0a95));
+        digest
+    };
+    digest(a) == digest(b)
 }

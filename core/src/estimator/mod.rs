@@ -55,7 +55,7 @@ use crate::error::{Error, weight_in_range};
 use crate::estimate::{ChannelEstimate, Estimate};
 use crate::integrals::Integrals;
 use crate::lanes::Lanes;
-use crate::moments::{Accumulate, Merge, Moments};
+use crate::moments::{Accumulate, Merge, Moments, Save};
 use num_traits::float::FloatCore;
 
 /// One channel's moments, as an estimator sees them.
@@ -159,9 +159,9 @@ pub trait Reads<const K: usize = 1>: Sized {
     /// The least number of draws it is defined for.
     const MIN_DRAWS: u64;
     /// Moments that give a value.
-    type Value<V: Lanes>: Accumulate<Draw<V, K>> + Merge + Moments<Lanes = V> + Copy + core::fmt::Debug;
+    type Value<V: Lanes>: Accumulate<Draw<V, K>> + Merge + Moments<Lanes = V> + Save + Copy + core::fmt::Debug;
     /// Moments that give a value and a standard error.
-    type ErrorBar<V: Lanes>: Accumulate<Draw<V, K>> + Merge + Moments<Lanes = V> + Copy + core::fmt::Debug;
+    type ErrorBar<V: Lanes>: Accumulate<Draw<V, K>> + Merge + Moments<Lanes = V> + Save + Copy + core::fmt::Debug;
 
     /// An empty accumulator of the value tier, for an auxiliary of defensive weight `weight`.
     #[doc(hidden)]

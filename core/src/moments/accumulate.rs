@@ -3,6 +3,7 @@
 use crate::draw::Draw;
 use crate::error::Error;
 use crate::lanes::Lanes;
+use crate::moments::save::Save;
 
 /// Takes draws of type `D` and keeps moments of them.
 ///
@@ -166,6 +167,12 @@ impl<V: Lanes, A: Accumulate<Draw<V::Wide>>> AccumulateSlices<V> for Widened<V, 
 impl<V, A: Merge> Merge for Widened<V, A> {
     fn merge(&mut self, later: &Self) {
         self.inner.merge(&later.inner);
+    }
+}
+
+impl<V, A: Save> Save for Widened<V, A> {
+    fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
+        self.inner.words(each);
     }
 }
 

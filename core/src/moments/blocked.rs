@@ -4,6 +4,8 @@ use crate::draw::Draw;
 use crate::error::Error;
 use crate::lanes::Lanes;
 use crate::moments::accumulate::{Accumulate, AccumulateSlices, Merge, Moments, same_length};
+use crate::moments::save::Save;
+use crate::planted::planted;
 use core::hint::black_box;
 use core::marker::PhantomData;
 
@@ -140,6 +142,8 @@ pub trait State: Copy {
     fn merge(&mut self, count: u64, later: &Self, later_count: u64);
     /// The state of channel `channel`; panics if there is no such channel.
     fn channel(&self, channel: usize) -> Self::Channel;
+    /// Calls `each` with every number, parameters included, in a fixed order: see [`Save`].
+    fn words(&mut self, each: &mut dyn FnMut(&mut u64));
 }
 
 /// The part with more draws first (the earlier of two alike), the other one, and the fraction of all
@@ -434,6 +438,14 @@ impl<V: Lanes, B: Kernel> Merge for Blocked<V, B> {
         self.close();
         let count = later.count();
         self.absorb(&later.state(), count);
+    }
+}
+
+impl<V, B: Kernel> Save for Blocked<V, B> {
+    fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
+        planted!("save_open": self.close(), self.open = 0);
+        each(&mut self.closed);
+        self.state.words(each);
     }
 }
 

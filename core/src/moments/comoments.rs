@@ -20,6 +20,7 @@ use crate::lanes::Lanes;
 use crate::moments::blocked::{Blocked, Kernel, State, Takes, lanes_beside, larger_first, partials};
 use crate::moments::range::{magnitude, smallest_square, unless_underflowed};
 use crate::moments::read::{HasComoments, HasMeans, Means, Spread};
+use crate::moments::save;
 use crate::planted::planted;
 use crate::solve::solve;
 use crate::spectrum::Spectrum;
@@ -326,6 +327,18 @@ impl<W: Lanes<Scalar = f64, Wide = W>, const K: usize> State for ComomentsState<
             h: self.h.map(|lanes| lanes.get(channel)),
             slope: self.slope.map(|lanes| lanes.get(channel)),
             squares: self.squares.map(|lanes| lanes.get(channel)),
+        }
+    }
+    fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
+        save::draw(&mut self.anchor, each);
+        save::lanes(&mut self.f, each);
+        save::all(&mut self.h, each);
+        save::all(planted!("save_slope": &mut self.slope, &mut self.slope.clone()), each);
+        let Squares { ee, eh, hh } = &mut self.squares;
+        save::lanes(ee, each);
+        save::all(eh, each);
+        for (i, row) in hh.iter_mut().enumerate() {
+            save::all(&mut row[..=i], each);
         }
     }
 }

@@ -4,6 +4,7 @@ use crate::draw::Draw;
 use crate::lanes::Lanes;
 use crate::moments::blocked::{Blocked, Kernel, State, Takes, lanes_beside, partials};
 use crate::moments::read::Tails;
+use crate::moments::save;
 use crate::spectrum::Spectrum;
 
 /// Σ|f|, Σ|h|, the largest |f|, and how many draws had h = 0. Joined to an estimator's moments (see
@@ -108,6 +109,12 @@ impl<W: Lanes<Scalar = f64>> State for ExtremesState<W> {
     }
     fn channel(&self, channel: usize) -> ExtremesState<f64> {
         ExtremesState(self.0.map(|lanes| lanes.get(channel)))
+    }
+    fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
+        let ExtremesBlock { abs_f, abs_h, max_f, nothing, unbounded } = &mut self.0;
+        for number in [abs_f, abs_h, max_f, nothing, unbounded] {
+            save::lanes(number, each);
+        }
     }
 }
 

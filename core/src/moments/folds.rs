@@ -91,6 +91,10 @@ impl<S: State + Default> State for FoldsState<S> {
     fn channel(&self, channel: usize) -> Self::Channel {
         FoldsState([self.0[0].channel(channel), self.0[1].channel(channel)])
     }
+    fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
+        self.0[0].words(each);
+        self.0[planted!("save_fold": 1, 0)].words(each);
+    }
 }
 
 impl<S> HasFolds for FoldsState<S> {

@@ -4,6 +4,7 @@ use crate::draw::Draw;
 use crate::lanes::Lanes;
 use crate::moments::blocked::{Blocked, Kernel, State, Takes, add_to_each, kernels_beside};
 use crate::moments::read::{Group, HasGroups, HasMeans, Means};
+use crate::moments::save;
 use crate::planted::planted;
 
 /// Group means of f and `K` auxiliaries: draw `i` of the stream belongs to group `i % G`.
@@ -115,6 +116,11 @@ impl<W: Lanes<Scalar = f64>, const G: usize, const K: usize> State for GroupsSta
         let of =
             |mean: &Draw<W, K>| Draw { f: mean.f.get(channel), h: core::array::from_fn(|k| mean.h[k].get(channel)) };
         GroupsState { means: core::array::from_fn(|group| of(&self.means[group])) }
+    }
+    fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
+        for mean in &mut self.means {
+            save::draw(mean, each);
+        }
     }
 }
 

@@ -69,6 +69,7 @@ impl State for () {
     #[inline(always)]
     fn merge(&mut self, _: u64, (): &(), _: u64) {}
     fn channel(&self, _: usize) {}
+    fn words(&mut self, _: &mut dyn FnMut(&mut u64)) {}
 }
 
 /// Several kernels of one kind, such as ratios on auxiliaries of different defensive weights.
@@ -137,6 +138,11 @@ impl<S: State, const L: usize> State for [S; L] {
     }
     fn channel(&self, channel: usize) -> Self::Channel {
         core::array::from_fn(|i| self[i].channel(channel))
+    }
+    fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
+        for state in self {
+            state.words(each);
+        }
     }
 }
 
@@ -267,6 +273,14 @@ impl<B: State, R: State, G: State, E: State, T: State, F: State> State for Joine
             third: self.third.channel(channel),
             folds: self.folds.channel(channel),
         }
+    }
+    fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
+        self.base.words(each);
+        self.ratios.words(each);
+        self.groups.words(each);
+        self.extremes.words(each);
+        self.third.words(each);
+        self.folds.words(each);
     }
 }
 

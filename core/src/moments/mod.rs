@@ -19,6 +19,7 @@ mod joined;
 mod pairs;
 mod range;
 mod read;
+mod save;
 mod sums;
 mod third;
 mod univariate;
@@ -35,6 +36,7 @@ pub use read::{
     Group, HasComoments, HasFolds, HasGroups, HasMeans, HasPairs, HasRatioMean, HasThirdMoments, Means, RatioMoments,
     Spread, Tails, ThirdMoments,
 };
+pub use save::Save;
 pub use sums::{Sums, SumsBlock, SumsState};
 pub use third::{Third, ThirdBlock, ThirdState};
 pub use univariate::{

@@ -100,6 +100,9 @@ impl<W: Lanes<Scalar = f64>, const K: usize, const G: usize> State for PairsStat
     fn channel(&self, channel: usize) -> Self::Channel {
         PairsState(self.0.channel(channel))
     }
+    fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
+        self.0.words(each);
+    }
 }
 
 impl<const K: usize, const G: usize> HasPairs<K> for PairsState<f64, K, G> {

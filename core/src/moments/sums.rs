@@ -4,6 +4,7 @@ use crate::draw::Draw;
 use crate::lanes::Lanes;
 use crate::moments::blocked::{Blocked, Kernel, State, Takes, lanes_beside, larger_first, partials};
 use crate::moments::read::{HasMeans, Means};
+use crate::moments::save;
 use crate::planted::planted;
 use crate::spectrum::Spectrum;
 
@@ -107,6 +108,10 @@ impl<W: Lanes<Scalar = f64>, const K: usize> State for SumsState<W, K> {
             anchor: self.anchor.map(|lanes| lanes.get(channel)),
             relative: self.relative.map(|lanes| lanes.get(channel)),
         }
+    }
+    fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
+        save::draw(&mut self.anchor, each);
+        save::draw(&mut self.relative, each);
     }
 }
 

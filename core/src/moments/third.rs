@@ -4,6 +4,7 @@ use crate::draw::Draw;
 use crate::lanes::Lanes;
 use crate::moments::blocked::{Blocked, Kernel, State, Takes, lanes_beside, larger_first, partials};
 use crate::moments::read::{HasThirdMoments, ThirdMoments};
+use crate::moments::save;
 use crate::spectrum::Spectrum;
 
 /// Third central moments of f and one auxiliary. No estimator reads them; `predict` does.
@@ -181,6 +182,13 @@ impl<W: Lanes<Scalar = f64>> State for ThirdState<W> {
         ThirdState {
             anchor: self.anchor.map(|lanes| lanes.get(channel)),
             central: self.central.map(|lanes| lanes.get(channel)),
+        }
+    }
+    fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
+        save::draw(&mut self.anchor, each);
+        let Powers { f, h, hh, hf, ff, hhh, hhf, hff } = &mut self.central;
+        for sum in [f, h, hh, hf, ff, hhh, hhf, hff] {
+            save::lanes(sum, each);
         }
     }
 }

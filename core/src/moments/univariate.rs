@@ -8,6 +8,7 @@ use crate::lanes::Lanes;
 use crate::moments::blocked::{Blocked, Kernel, State, Takes, larger_first, partials};
 use crate::moments::range::{magnitude, smallest_square, unless_underflowed};
 use crate::moments::read::{HasMeans, HasRatioMean, Means, RatioMoments, Spread};
+use crate::moments::save;
 use crate::planted::planted;
 use crate::spectrum::Spectrum;
 
@@ -25,6 +26,8 @@ pub trait Quantity: Copy + core::fmt::Debug {
     fn of(&self, draw: &Self::Draw) -> Self::Lanes;
     /// The parameters of channel `channel`.
     fn channel(&self, channel: usize) -> Self::Channel;
+    /// Calls `each` with every parameter: see [`Save`](crate::moments::Save).
+    fn words(&mut self, each: &mut dyn FnMut(&mut u64));
 }
 
 /// f, of draws with `K` auxiliaries.
@@ -48,6 +51,7 @@ impl<V: Lanes, const K: usize> Quantity for IntegrandOf<V, K> {
     fn channel(&self, _: usize) -> IntegrandOf<f64, K> {
         IntegrandOf::default()
     }
+    fn words(&mut self, _: &mut dyn FnMut(&mut u64)) {}
 }
 
 /// r = f/h′ with h′ = εH + (1−ε)h. Where f = 0 and h′ = 0, r is 0: then r·h′ = f holds, which is all
@@ -80,6 +84,10 @@ impl<V: Lanes> Quantity for RatioOf<V> {
     }
     fn channel(&self, channel: usize) -> RatioOf<f64> {
         RatioOf { weight: self.weight, floor: self.floor.widen().get(channel) }
+    }
+    fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
+        save::lanes(&mut self.weight, each);
+        save::narrow(&mut self.floor, each);
     }
 }
 
@@ -250,6 +258,12 @@ impl<Q: Quantity, W: Lanes<Scalar = f64, Wide = W>, const S: usize> State for Un
             relative: self.relative.get(channel),
             squares: self.squares.map(|squares| squares.get(channel)),
         }
+    }
+    fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
+        self.quantity.words(each);
+        save::lanes(&mut self.anchor, each);
+        save::lanes(&mut self.relative, each);
+        save::all(&mut self.squares, each);
     }
 }
 
