@@ -1,8 +1,9 @@
 //! The driver loop on all cores.
 
-use crate::chunks::{map_chunks, merge_tree, stream};
-use ratiocv_core::moments::Moments;
-use ratiocv_core::{Auxiliaries, Error, Estimate, Estimator, Integrand, Problem, Proposal, Reads};
+use crate::chunks::{Chunk, merge_chunks, stream};
+use crate::merge_tree::MergeTree;
+use ratiocv_core::moments::{Accumulate, Moments};
+use ratiocv_core::{Auxiliaries, Draw, Error, Estimate, Estimator, Integrand, Problem, Proposal, Reads};
 
 /// Draws in a chunk.
 pub const CHUNK: u64 = 4096;
@@ -10,7 +11,7 @@ pub const CHUNK: u64 = 4096;
 /// The estimate of `estimator` from `draws` draws of `problem`, on all of the pool's threads.
 ///
 /// The same bits for the same `seed`, whatever the number of threads. Statistically as
-/// [`Problem::integrate`].
+/// [`Problem::integrate`]. For hours rather than seconds: [`Run`](crate::Run).
 ///
 /// ```
 /// use ratiocv_core::{Mickey, Problem, Spectrum, Uniform, WithIntegral};
@@ -40,10 +41,24 @@ where
 {
     let integrals = problem.integrals();
     let empty = || estimator.error_bar(&integrals);
-    let chunks = map_chunks(draws, CHUNK, |chunk| {
-        let mut moments = empty();
-        problem.accumulate(&mut moments, chunk.count, &mut stream(seed, chunk.index));
-        moments
-    });
-    estimator.estimate(&merge_tree(chunks).unwrap_or_else(empty), &integrals)
+    let mut tree = MergeTree::default();
+    merge_chunks(&mut tree, draws, CHUNK, || false, |chunk| accumulated(problem, empty(), seed, chunk));
+    estimator.estimate(&tree.merged().unwrap_or_else(empty), &integrals)
+}
+
+/// `moments` with the draws of `chunk`.
+pub(crate) fn accumulated<F, A, P, X, M, const K: usize>(
+    problem: &Problem<F, A, P, X>,
+    mut moments: M,
+    seed: u64,
+    chunk: Chunk,
+) -> M
+where
+    F: Integrand<X>,
+    A: Auxiliaries<X, F::Value, K>,
+    P: Proposal<Point = X>,
+    M: Accumulate<Draw<F::Value, K>>,
+{
+    problem.accumulate(&mut moments, chunk.count, &mut stream(seed, chunk.index));
+    moments
 }

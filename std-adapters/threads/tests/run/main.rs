@@ -1,0 +1,6 @@
+//! Runs: watched, stopped, killed, resumed.
+
+mod checkpoint;
+mod kill;
+mod stops;
+mod tree;
