@@ -140,7 +140,7 @@ fn wrong_contents_with_a_right_checksum_do_no_harm() {
     }
     let shorter = [&bytes[..words], &bytes[words + 32..]].concat();
     assert!(matches!(fault_of(&path, &repaired(shorter)), Some(Fault::Damaged(_))));
-    let longer = [&bytes[..words], &bytes[words..words + 32], &bytes[words..]].concat();
+    let longer = [&bytes[..bytes.len() - 4], &bytes[words..words + 32], &[0; 4]].concat();
     assert!(matches!(fault_of(&path, &repaired(longer)), Some(Fault::Damaged("there is something after its end"))));
     let mut newer = bytes;
     newer[16] = 2;
@@ -169,7 +169,7 @@ fn a_checkpoint_of_another_run_is_refused_by_name() {
     assert_eq!(other(made(Run::new(DRAWS + 1, 1), 0.01, 1.0, 0.5)), text("the number of draws", "28673", "28672"));
     assert_eq!(
         other(made(run(), 0.1, 1.0, 0.5)),
-        text("the list of parameters of the moments", "[10: 0.1, 11: 0.05]", "[10: 0.01, 11: 0.005]")
+        text("the list of parameters of the moments", "[9: 0.1, 10: 0.05]", "[9: 0.01, 10: 0.005]")
     );
     assert_eq!(other(made(run(), 0.01, 1.0, 0.25)).0, "the known integral of auxiliary 0, channel 0,");
     assert_eq!(other(made(run(), 0.01, 1.1, 0.5)).0, "the checksum of the first draws");
@@ -180,7 +180,7 @@ fn a_checkpoint_of_another_run_is_refused_by_name() {
     let h = WithIntegral::new(|x: &f64| *x, 0.5);
     let problem = Problem::new(|x: &f64| x * x).auxiliary(h).proposal(Uniform);
     let result = run().checkpoint(&path, HOUR).cancel(&stop).integrate(&problem, &RatioOfMeans);
-    assert_eq!(other(result), text("the estimator", "ratio_of_means", "defensive_hartley_ross"));
+    assert_eq!(other(result), text("the estimator", "ratio", "defensive_hartley_ross"));
     let result = run()
         .checkpoint(&path, HOUR)
         .integrate::<_, _, _, _, _, 0>(&Problem::new(|x: &f64| Spectrum([*x, *x])).proposal(Uniform), &Plain);

@@ -51,10 +51,12 @@ fn progress_begins_at_nothing_never_falls_and_ends_at_the_total() {
 #[test]
 fn a_cancelled_run_is_a_shorter_run() {
     let problem = problem!(|x: &f64| x.exp());
+    // Long enough for a thread that was stopped in the callback to wake up before the others are done.
+    let total = 2000 * CHUNK;
     for threads in [1, 2, 3, 5, 8] {
         for after in [1, 4, 17] {
             let stop = AtomicBool::new(false);
-            let run = Run::new(DRAWS, 5).cancel(&stop).progress(|done, _| stop.store(done >= after * CHUNK, Relaxed));
+            let run = Run::new(total, 5).cancel(&stop).progress(|done, _| stop.store(done >= after * CHUNK, Relaxed));
             let Outcome { estimate, draws, stopped } =
                 on(threads, || run.integrate(&problem, &RatioOfMeans)).expect("a chunk");
             assert_eq!(stopped, Stopped::Cancelled);
@@ -95,11 +97,11 @@ fn a_time_budget_is_kept_to_a_chunk() {
         while begun.elapsed() < Duration::from_micros(5) {}
         x * x
     });
-    let run = Run::new(150 * CHUNK, 5).time_budget(Duration::from_millis(50));
+    let run = Run::new(150 * CHUNK, 5).time_budget(Duration::from_millis(200));
     let outcome = on(2, || run.integrate(&problem, &Plain)).expect("a chunk");
     assert_eq!(outcome.stopped, Stopped::OutOfTime);
-    // Within 50 ms no thread begins more than three chunks.
-    assert!(outcome.draws <= 2 * 3 * CHUNK, "{} draws", outcome.draws);
+    // Within 200 ms no thread begins more than ten chunks.
+    assert!(outcome.draws <= 2 * 10 * CHUNK, "{} draws", outcome.draws);
     assert_eq!(bits(&outcome.estimate), bits(&integrate(&problem, &Plain, outcome.draws, 5).expect("draws")));
 }
 
