@@ -80,7 +80,7 @@ impl<M: Merge> MergeTree<M> {
 }
 
 /// `parts` merged as by [`MergeTree`]; `None` of nothing.
-pub fn merge_tree<M: Merge>(parts: impl IntoIterator<Item = M>) -> Option<M> {
+pub fn merge_tree<M: Merge>(parts: Vec<M>) -> Option<M> {
     let mut tree = MergeTree::default();
     for part in parts {
         tree.push(part);

@@ -1,10 +1,11 @@
 //! Progress, cancellation, time budgets, panics.
 
+use core::panic::AssertUnwindSafe;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use core::time::Duration;
 use ratiocv_core::{ChannelEstimate, Estimate, Plain, Problem, RatioOfMeans, Uniform, WithIntegral};
 use ratiocv_threads::{CHUNK, Error, Outcome, Run, Stopped, integrate};
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::catch_unwind;
 
 const DRAWS: u64 = 30 * CHUNK + 77;
 
