@@ -333,7 +333,7 @@ impl<W: Lanes<Scalar = f64, Wide = W>, const K: usize> State for ComomentsState<
         save::draw(&mut self.anchor, each);
         save::lanes(&mut self.f, each);
         save::all(&mut self.h, each);
-        save::all(planted!("save_slope": &mut self.slope, &mut self.slope.clone()), each);
+        save::all(planted!("save_slope": &mut self.slope, &mut self.squares.eh), each);
         let Squares { ee, eh, hh } = &mut self.squares;
         save::lanes(ee, each);
         save::all(eh, each);
