@@ -54,8 +54,14 @@ impl<V: Lanes, const K: usize> Draw<V, K> {
     /// `P` draws as one of `P` times as many channels.
     #[inline(always)]
     pub(crate) fn side_by_side<const P: usize>(draws: &[Self; P]) -> Draw<Spectrum<V, P>, K> {
-        let side_by_side = |of: &dyn Fn(&Self) -> V| Spectrum(filled(V::ZERO, |i| of(&draws[i])));
-        Draw { f: side_by_side(&|draw| draw.f), h: filled(Spectrum::ZERO, |k| side_by_side(&|draw| draw.h[k])) }
+        let mut wide = Draw::ZERO;
+        for (i, draw) in draws.iter().enumerate() {
+            wide.f.0[i] = draw.f;
+            for (wide, h) in wide.h.iter_mut().zip(draw.h) {
+                wide.0[i] = h;
+            }
+        }
+        wide
     }
 
     /// The draw with auxiliary `k` alone; panics if there is no such auxiliary.

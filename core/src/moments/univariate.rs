@@ -233,7 +233,11 @@ impl<Q: Quantity, const S: usize> Takes<Q::Draw> for UnivariateBlock<Q, S> {
     }
     #[inline(always)]
     fn add_beside<const P: usize>(parts: &mut Self::Beside<P>, _: usize, draws: &[Q::Draw; P]) {
-        parts.take(Spectrum(filled(Q::Lanes::ZERO, |i| parts.quantity.of(&draws[i]))));
+        let mut x = Spectrum([Q::Lanes::ZERO; P]);
+        for (x, draw) in x.0.iter_mut().zip(draws) {
+            *x = parts.quantity.of(draw);
+        }
+        parts.take(x);
     }
 }
 
