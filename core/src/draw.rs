@@ -54,7 +54,7 @@ impl<V: Lanes, const K: usize> Draw<V, K> {
     /// `P` draws as one of `P` times as many channels.
     #[inline(always)]
     pub(crate) fn side_by_side<const P: usize>(draws: &[Self; P]) -> Draw<Spectrum<V, P>, K> {
-        let mut wide = Draw::ZERO;
+        let mut wide = Draw::<Spectrum<V, P>, K>::ZERO;
         for (i, draw) in draws.iter().enumerate() {
             wide.f.0[i] = draw.f;
             for (wide, h) in wide.h.iter_mut().zip(draw.h) {
