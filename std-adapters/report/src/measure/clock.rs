@@ -9,7 +9,7 @@ use rand_core::Rng;
 use ratiocv_core::moments::{Accumulate, Moments};
 use ratiocv_core::predict::Predict;
 use ratiocv_core::{Draw, Estimator, Reads};
-use ratiocv_threads::stream;
+use ratiocv_simd::Xoshiro16;
 use std::time::Instant;
 
 /// Estimates, each from fresh draws and the estimator's own moments, with error bars.
@@ -50,7 +50,7 @@ fn fill<S: Source, M: Accumulate<Draw<S::Value>>>(source: &S, moments: &mut M, d
 /// Estimators take turns, round by round, so that a machine that slows down slows them all.
 pub(super) fn clock<S: Solved>(problem: &S, methods: &[Method], weight: f64, size: Size, seed: u64) -> Vec<Seconds> {
     let source = problem.source();
-    let mut rng = stream(seed, size.draws);
+    let mut rng = Xoshiro16::stream(seed, size.draws);
     let mut times = vec![Vec::with_capacity(size.rounds); methods.len()];
     // The first round warms caches and branch predictors and is thrown away.
     for round in 0..=size.rounds {
