@@ -105,7 +105,7 @@ impl<F: Integrand<X>, A, P: Proposal<Point = X>, X> Problem<F, A, P, X> {
     }
 
     /// Adds `draws` draws to `moments`.
-    #[inline]
+    #[inline(always)]
     pub fn accumulate<M, R: Rng + ?Sized, const K: usize>(&self, moments: &mut M, draws: u64, rng: &mut R)
     where
         A: Auxiliaries<X, F::Value, K>,

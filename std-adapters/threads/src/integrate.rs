@@ -2,8 +2,10 @@
 
 use crate::chunks::{Chunk, merge_chunks, stream};
 use crate::merge_tree::MergeTree;
+use rand_core::Rng;
 use ratiocv_core::moments::{Accumulate, Moments};
 use ratiocv_core::{Auxiliaries, Draw, Error, Estimate, Estimator, Integrand, Problem, Proposal, Reads};
+use ratiocv_simd::{Work, at_best_level};
 
 /// Draws in a chunk.
 pub const CHUNK: u64 = 4096;
@@ -46,7 +48,7 @@ where
     estimator.estimate(&tree.merged().unwrap_or_else(empty), &integrals)
 }
 
-/// `moments` with the draws of `chunk`.
+/// `moments` with the draws of `chunk`, made and added with the best instructions of the machine.
 pub(crate) fn accumulated<F, A, P, X, M, const K: usize>(
     problem: &Problem<F, A, P, X>,
     mut moments: M,
@@ -59,6 +61,29 @@ where
     P: Proposal<Point = X>,
     M: Accumulate<Draw<F::Value, K>>,
 {
-    problem.accumulate(&mut moments, chunk.count, &mut stream(seed, chunk.index));
+    let (draws, mut rng) = (chunk.count, stream(seed, chunk.index));
+    at_best_level(Accumulation { problem, moments: &mut moments, draws, rng: &mut rng });
     moments
+}
+
+struct Accumulation<'a, F, A, P, X, M, R, const K: usize> {
+    problem: &'a Problem<F, A, P, X>,
+    moments: &'a mut M,
+    draws: u64,
+    rng: &'a mut R,
+}
+
+impl<F, A, P, X, M, R, const K: usize> Work for Accumulation<'_, F, A, P, X, M, R, K>
+where
+    F: Integrand<X>,
+    A: Auxiliaries<X, F::Value, K>,
+    P: Proposal<Point = X>,
+    M: Accumulate<Draw<F::Value, K>>,
+    R: Rng,
+{
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        self.problem.accumulate(self.moments, self.draws, self.rng);
+    }
 }
