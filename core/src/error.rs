@@ -86,6 +86,22 @@ pub enum Error {
     Exponent(f64),
     /// Counts of techniques that are negative, not finite, or all 0.
     Counts,
+    /// A draw for an accumulator that a film does not have.
+    NoSuchAccumulator {
+        /// Its index.
+        index: usize,
+        /// The number of accumulators.
+        accumulators: usize,
+    },
+    /// A film's memory, its image or its fellow has the wrong size.
+    FilmSize {
+        /// What is too large or too small.
+        what: &'static str,
+        /// The size that it must have.
+        needed: usize,
+        /// The size that it has.
+        got: usize,
+    },
     /// A flag was raised, and the caller asked for none ([`Estimate::strict`](crate::Estimate::strict)).
     Flagged {
         /// The first channel with a flag.
@@ -137,6 +153,17 @@ impl fmt::Display for Error {
                 f,
                 "the counts of the techniques must be finite, not negative, and not all 0: give the number of draws \
                  from each technique, or its probability"
+            ),
+            Self::NoSuchAccumulator { index, accumulators } => {
+                write!(
+                    f,
+                    "there is no accumulator {index} in a film of {accumulators}: number pixels, or packs of them, from 0"
+                )
+            }
+            Self::FilmSize { what, needed, got } => write!(
+                f,
+                "{what}: {got}, and must be {needed}: give one accumulator per pixel or pack of pixels, one entry of an \
+                 image per pixel and channel, and merge films of the same image"
             ),
             Self::Flagged { channel, flags } => write!(
                 f,

@@ -44,6 +44,7 @@ mod error;
 mod estimate;
 mod estimator;
 mod filled;
+mod film;
 mod flags;
 mod integrals;
 mod lanes;
@@ -72,6 +73,7 @@ pub use estimator::{
     OptimalDefensive, Plain, Quenouille, RandomMixture, RatioOfIntegrals, RatioOfMeans, Reads, Regression,
     RegressionRatio, Sample, Tin, Uncertain, WithCoefficients,
 };
+pub use film::Film;
 pub use flags::Flags;
 pub use integrals::Integrals;
 pub use lanes::{Lanes, PerLane, Scalar, Single};
