@@ -100,13 +100,13 @@ fn obeys<M: Accumulate<Draw<Rgb>> + Merge + Moments<Lanes = Rgb> + Copy, E: Esti
     for part in 0..3 {
         let mut of_part = vec![empty; PIXELS];
         let mut later = Film::new(&mut of_part);
-        for pixel in 0..PIXELS {
+        for (pixel, joined) in joined.iter_mut().enumerate() {
             let (from, to) = (spp(pixel) * part / 3, spp(pixel) * (part + 1) / 3);
             let draws: Vec<_> = (from..to).map(|i| draw(pixel, i)).collect();
             later.add_batch(pixel, &draws).expect("a pixel");
             let mut moments = empty;
             moments.add_batch(&draws);
-            joined[pixel].merge(&moments);
+            joined.merge(&moments);
         }
         film.merge(&later).expect("the same image");
     }

@@ -17,7 +17,7 @@ pub const BLOCK: usize = 64;
 /// Runs of a batch that share a beginning, an end and a merge. A merge costs as much as 64 to 128
 /// draws; sixteen runs, added up one after another, make it a few per cent of a batch and lengthen the
 /// sums by sixteen terms.
-const RUNS: usize = 16;
+pub(super) const RUNS: usize = 16;
 
 /// The first draws of a stream each make a block of their own, so that they reach the `f64` state
 /// unrounded and the state knows a slope and a scale before the first sums in `V`'s precision.
@@ -179,7 +179,7 @@ pub struct Blocked<V, B: Kernel> {
     closed: u64,
     open: u32,
     lanes: PhantomData<V>,
-    state: B::State,
+    pub(super) state: B::State,
     block: B,
 }
 
@@ -221,7 +221,7 @@ impl<V, B: Kernel> Blocked<V, B> {
     }
 
     #[inline(always)]
-    fn absorb(&mut self, part: &B::State, count: u64) {
+    pub(super) fn absorb(&mut self, part: &B::State, count: u64) {
         if self.closed == 0 {
             self.state = *part;
         } else {
@@ -231,7 +231,7 @@ impl<V, B: Kernel> Blocked<V, B> {
     }
 
     #[inline]
-    fn close(&mut self) {
+    pub(super) fn close(&mut self) {
         if self.open > 0 {
             let count = u64::from(self.open);
             self.open = 0;
@@ -308,7 +308,7 @@ impl<V, B: Kernel> Blocked<V, B> {
 
     /// How many of a batch's draws go in one by one before its runs: those that make blocks of one.
     #[inline(always)]
-    fn singles(&self, draws: usize) -> usize {
+    pub(super) fn singles(&self, draws: usize) -> usize {
         SINGLES.saturating_sub(self.closed).min(draws as u64) as usize
     }
 }

@@ -20,6 +20,7 @@ mod pairs;
 mod range;
 mod read;
 mod save;
+mod slices;
 mod sums;
 mod third;
 mod univariate;
@@ -37,6 +38,7 @@ pub use read::{
     Spread, Tails, ThirdMoments,
 };
 pub use save::Save;
+pub use slices::Slices;
 pub use sums::{Sums, SumsBlock, SumsState};
 pub use third::{Third, ThirdBlock, ThirdState};
 pub use univariate::{
