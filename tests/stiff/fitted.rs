@@ -221,3 +221,35 @@ fn e8_alpha_one_is_the_ratio_to_the_bit() {
         assert_eq!(ours.std_error.to_bits(), ratio.std_error.to_bits());
     }
 }
+
+/// The four draws that a slope is first fitted to may lie close together in h and fit a steep line by
+/// chance; the residuals of what follows would be all rounding.
+#[test]
+fn few_draws_close_together_teach_no_slope_to_f32() {
+    let golden = |x: f64| (x * 0.618_033_988_749_894_9).fract();
+    let draw = |i: u32, channel: u32| {
+        let h = 0.5 + golden(f64::from(i * 7919 + channel));
+        let f = h * (1.0 + 0.5 * golden(f64::from(i * 104_729 + 31 * channel) + 0.5));
+        (f as f32, h as f32)
+    };
+    for draws in [32, 64, 128, 1000, 4096] {
+        let (mut singly, mut batch) = (0.0_f64, 0.0_f64);
+        for channel in 0..500 {
+            let all: Vec<_> = (0..draws).map(|i| draw(i, channel)).map(|(f, h)| Draw::new(f, h)).collect();
+            let mut exact = Widened::<f32, Comoments<f64>>::default();
+            let (mut one, mut many) = (Comoments::<f32>::default(), Comoments::<f32>::default());
+            exact.add_batch(&all);
+            many.add_batch(&all);
+            for draw in &all {
+                one.add(*draw);
+            }
+            let exact = RatioOfMeans.estimate(&exact, &Integrals::ONE).unwrap().std_error;
+            let error = |moments: &Comoments<f32>| {
+                (RatioOfMeans.estimate(moments, &Integrals::ONE).unwrap().std_error / exact - 1.0).abs()
+            };
+            (singly, batch) = (singly.max(error(&one)), batch.max(error(&many)));
+        }
+        println!("{draws} draws: {singly:e} singly, {batch:e} in a batch");
+        assert!(singly <= 1e-5 && batch <= 1e-5, "{draws} draws: {singly:e} singly, {batch:e} in a batch");
+    }
+}

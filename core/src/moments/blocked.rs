@@ -17,7 +17,7 @@ pub const BLOCK: usize = 64;
 /// Runs of a batch that share a beginning, an end and a merge. A merge costs as much as 64 to 128
 /// draws; sixteen runs, added up one after another, make it a few per cent of a batch and lengthen the
 /// sums by sixteen terms.
-pub(super) const RUNS: usize = 16;
+const RUNS: usize = 16;
 
 /// The first draws of a stream each make a block of their own, so that they reach the `f64` state
 /// unrounded and the state knows a slope and a scale before the first sums in `V`'s precision.
@@ -306,6 +306,13 @@ impl<V, B: Kernel> Blocked<V, B> {
         Some((parts[0].close(&self.state, count as u64), count as u64))
     }
 
+    /// How many of `runs` runs make the next block: one to begin with, for the state to know a slope from
+    /// more than the singles before it relies on it for long.
+    #[inline(always)]
+    pub(super) fn runs_at_once(&self, runs: usize) -> usize {
+        runs.min(if self.closed < BLOCK as u64 { 1 } else { RUNS })
+    }
+
     /// How many of a batch's draws go in one by one before its runs: those that make blocks of one.
     #[inline(always)]
     pub(super) fn singles(&self, draws: usize) -> usize {
@@ -357,8 +364,11 @@ impl<V, D: Copy, B: Takes<D>> Accumulate<D> for Blocked<V, B> {
         for draw in singles {
             self.add(*draw);
         }
-        for block in runs.chunks(RUNS) {
+        let mut runs = runs;
+        while !runs.is_empty() {
+            let (block, rest) = runs.split_at(self.runs_at_once(runs.len()));
             self.add_block(block.iter());
+            runs = rest;
         }
         for draw in tail {
             self.add(*draw);
@@ -374,7 +384,7 @@ impl<V, D: Copy, B: Takes<D>> Accumulate<D> for Blocked<V, B> {
         let mut runs = (count - singles) / BLOCK as u64;
         let tail = (count - singles) % BLOCK as u64;
         while runs > 0 {
-            let some = runs.min(RUNS as u64);
+            let some = self.runs_at_once(usize::try_from(runs).unwrap_or(usize::MAX)) as u64;
             self.add_block((0..some).map(|_| core::array::from_fn::<D, BLOCK, _>(|_| draw())));
             runs -= some;
         }
@@ -394,8 +404,12 @@ impl<V: Lanes, B: Takes<Draw<V>>> AccumulateSlices<V> for Blocked<V, B> {
         for (f, h) in single_f.iter().zip(single_h) {
             self.add(Draw::new(*f, *h));
         }
-        for (f, h) in runs_f.chunks(RUNS).zip(runs_h.chunks(RUNS)) {
-            self.add_block(f.iter().zip(h));
+        let (mut runs_f, mut runs_h) = (runs_f, runs_h);
+        while !runs_f.is_empty() {
+            let at_once = self.runs_at_once(runs_f.len());
+            let ((block_f, rest_f), (block_h, rest_h)) = (runs_f.split_at(at_once), runs_h.split_at(at_once));
+            self.add_block(block_f.iter().zip(block_h));
+            (runs_f, runs_h) = (rest_f, rest_h);
         }
         for (f, h) in tail_f.iter().zip(tail_h) {
             self.add(Draw::new(*f, *h));

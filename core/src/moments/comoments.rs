@@ -248,26 +248,33 @@ impl<W: Lanes<Scalar = f64, Wide = W>, const K: usize> ComomentsState<W, K> {
         (0..K).fold(self.squares.eh[k], |sum, j| sum + self.slope[j] * self.squares.hh(k, j))
     }
 
-    /// The least-squares slopes of moments `fh`, `hh` of draws whose auxiliaries have the means
-    /// `mean_h`; the `known` one of an auxiliary whose spread is still too small against its mean to
-    /// tell: a slope fitted to noise would be huge, and bury the residuals of later draws under rounding.
+    /// Σ(f − f̄)².
     #[inline(always)]
-    fn fitted_slopes(fh: [W; K], hh: &Squares<W, K>, mean_h: [W; K], known: [W; K]) -> [W; K] {
+    fn ff(&self) -> W {
+        (0..K).fold(self.squares.ee, |sum, k| sum + self.slope[k] * (self.squares.eh[k] + self.fh(k)))
+    }
+
+    /// The least-squares slopes of moments `ff`, `fh`, `hh` of `count` draws whose auxiliaries have the means
+    /// `mean_h`; 0 for an auxiliary whose spread is still too small against its mean to tell, and for all
+    /// unless the fit is beyond doubt, F > 1000. A slope fitted to noise may be huge, and bury the
+    /// residuals of later draws under rounding; without one, the residual of a fit with F = 1000 loses
+    /// three digits where there are few draws, and none where there are many.
+    #[inline(always)]
+    fn fitted_slopes(ff: W, fh: [W; K], hh: &Squares<W, K>, mean_h: [W; K], count: f64) -> [W; K] {
         let spreads: [W; K] = filled(W::ZERO, |k| {
             let enough = (W::splat(1e-4) * mean_h[k] * mean_h[k]).lt(hh.hh[k][k]);
             W::select(enough, W::ONE, W::ZERO)
         });
-        let kept: [W; K] = filled(W::ZERO, |k| W::select(W::equal(spreads[k], W::ONE), W::ZERO, known[k]));
-        let right = filled(W::ZERO, |k| (0..K).fold(fh[k], |sum, j| sum - kept[j] * hh.hh(k, j)));
         let matrix = filled([W::ZERO; K], |i| filled(W::ZERO, |j| hh.hh(i, j)));
         // Any slopes will do; those of nearly dependent auxiliaries would only be large.
-        let fit = solve(&matrix, &right, &spreads, 1e-9);
+        let fit = solve(&matrix, &fh, &spreads, 1e-9).x;
+        let explained = (0..K).fold(W::ZERO, |sum, k| sum + fit[k] * fh[k]);
+        let freedom = count - (K + 1) as f64;
+        let doubt = (ff - explained) * W::splat(planted!("comoments_noise_slope": 1000.0, 0.0) * K as f64);
+        let sure = doubt.lt(explained * W::splat(freedom));
         // One slope that is not a number would spoil the residuals of all.
-        let finite = (0..K).fold(W::ZERO, |sum, k| sum + fit.x[k] * W::ZERO);
-        filled(W::ZERO, |k| {
-            let fitted = W::select(W::equal(spreads[k], W::ONE), fit.x[k], known[k]);
-            W::select(W::equal(finite, W::ZERO), fitted, known[k])
-        })
+        let finite = W::equal(explained * W::ZERO, W::ZERO);
+        filled(W::ZERO, |k| W::select(finite, W::select(sure, fit[k], W::ZERO), W::ZERO))
     }
 
     /// The same moments with residuals about `slope`.
@@ -306,7 +313,8 @@ impl<W: Lanes<Scalar = f64, Wide = W>, const K: usize> State for ComomentsState<
         joint.add_times(W::ZERO, &h, weight);
         let fh = filled(W::ZERO, |k| large.fh(k) + small.fh(k) + f * h[k] * weight);
         let absolute = filled(W::ZERO, |k| large.anchor.h[k] + mean_h[k]);
-        let slope = Self::fitted_slopes(fh, &joint, absolute, large.slope);
+        let ff = large.ff() + small.ff() + f * f * weight;
+        let slope = Self::fitted_slopes(ff, fh, &joint, absolute, (count + later_count) as f64);
         let (a, b) = (large.with_slopes(&slope), small.with_slopes(&slope));
         let e = residual(f, &slope, &h);
         joint.ee = a.squares.ee + b.squares.ee + e * e * weight;

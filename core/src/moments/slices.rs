@@ -15,7 +15,7 @@ use crate::estimator::{Estimator, Sample};
 use crate::integrals::Integrals;
 use crate::lanes::{Lanes, Scalar};
 use crate::moments::accumulate::{Accumulate, Merge, Moments};
-use crate::moments::blocked::{BLOCK, Blocked, Kernel, RUNS, State, Takes, partials};
+use crate::moments::blocked::{BLOCK, Blocked, Kernel, State, Takes, partials};
 use crate::planted::planted;
 use core::fmt;
 use num_traits::float::FloatCore;
@@ -270,8 +270,11 @@ fn add_in_order<V: Lanes, B: Takes<Draw<V, K>>, const K: usize>(
     let used = partials * pieces.len();
     let full = (rows.draws - singles) / BLOCK * BLOCK;
     if let (Some(sums), Some(of_run)) = (sums.get_mut(..used), of_run.get_mut(..used)) {
-        for block in (0..full).step_by(RUNS * BLOCK) {
-            add_block(pieces, &rows.part(singles + block, (full - block).min(RUNS * BLOCK)), sums, of_run);
+        let mut done = 0;
+        while done < full {
+            let block = BLOCK * pieces.first().map_or(1, |piece| piece.runs_at_once((full - done) / BLOCK));
+            add_block(pieces, &rows.part(singles + done, block), sums, of_run);
+            done += block;
         }
     }
     add_singly(pieces, &rows.part(singles + full, rows.draws - singles - full));
