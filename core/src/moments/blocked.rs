@@ -7,6 +7,7 @@ use crate::moments::accumulate::{Accumulate, AccumulateSlices, Merge, Moments, s
 use crate::moments::save::Save;
 use crate::planted::planted;
 use core::hint::black_box;
+use core::iter;
 use core::marker::PhantomData;
 
 /// Draws that are summed in one go: a run of a batch, or the block that draws make one by one.
@@ -220,7 +221,8 @@ impl<V, B: Kernel> Blocked<V, B> {
         self.state
     }
 
-    #[inline(always)]
+    // Out of line, like all that is not done for each draw: it halves the time of a build.
+    #[inline(never)]
     pub(super) fn absorb(&mut self, part: &B::State, count: u64) {
         if self.closed == 0 {
             self.state = *part;
@@ -264,25 +266,21 @@ impl<V, B: Kernel> Blocked<V, B> {
     {
         self.close();
         // The number of partial sums must be a constant for the sums to live in registers.
-        let part = match B::PARTIALS {
+        match B::PARTIALS {
             1 => self.block_in_parts::<D, R, 1>(runs),
             2 => self.block_in_parts::<D, R, 2>(runs),
             4 => self.block_in_parts::<D, R, 4>(runs),
             _ => self.block_in_parts::<D, R, 8>(runs),
-        };
-        if let Some((part, count)) = part {
-            self.absorb(&part, count);
         }
     }
 
-    /// Draw `i` of a run goes to part `i % P`; the runs are added up in their order, and then the parts
-    /// in a fixed tree. The state and the number of draws, unless there are none.
+    /// Draw `i` of a run goes to part `i % P`; the runs are added up in their order.
     #[inline(always)]
-    fn block_in_parts<D, R: Run<D>, const P: usize>(&self, mut runs: impl Iterator<Item = R>) -> Option<(B::State, u64)>
+    fn block_in_parts<D, R: Run<D>, const P: usize>(&mut self, mut runs: impl Iterator<Item = R>)
     where
         B: Takes<D>,
     {
-        let first = runs.next()?;
+        let Some(first) = runs.next() else { return };
         let mut empty = B::empty(&self.state);
         empty.begin(0, &first.draw(0));
         empty.begin(1, &first.draw(1));
@@ -294,7 +292,13 @@ impl<V, B: Kernel> Blocked<V, B> {
             add_run::<D, B, R, P>(&mut sums, &empty, count, &run);
             count += BLOCK;
         }
-        let mut parts: [B; P] = core::array::from_fn(|part| B::part(&sums, part));
+        self.absorb_parts::<P>(&sums, count as u64);
+    }
+
+    /// Folds the parts in a fixed tree, and merges what they amount to.
+    #[inline(never)]
+    fn absorb_parts<const P: usize>(&mut self, sums: &B::Beside<P>, count: u64) {
+        let mut parts: [B; P] = core::array::from_fn(|part| B::part(sums, part));
         let mut width = P / 2;
         while width > 0 {
             let (left, right) = parts.split_at_mut(width);
@@ -303,7 +307,19 @@ impl<V, B: Kernel> Blocked<V, B> {
             }
             width /= 2;
         }
-        Some((parts[0].close(&self.state, count as u64), count as u64))
+        let part = parts[0].close(&self.state, count);
+        self.absorb(&part, count);
+    }
+
+    /// Adds draws that make no run.
+    #[inline(never)]
+    fn add_singly<D: Copy>(&mut self, draws: impl Iterator<Item = D>)
+    where
+        B: Takes<D>,
+    {
+        for draw in draws {
+            self.add(draw);
+        }
     }
 
     /// How many of `runs` runs make the next block: one to begin with, for the state to know a slope from
@@ -361,36 +377,28 @@ impl<V, D: Copy, B: Takes<D>> Accumulate<D> for Blocked<V, B> {
     fn add_batch(&mut self, draws: &[D]) {
         let (singles, rest) = draws.split_at(self.singles(draws.len()));
         let (runs, tail) = rest.as_chunks::<BLOCK>();
-        for draw in singles {
-            self.add(*draw);
-        }
+        self.add_singly(singles.iter().copied());
         let mut runs = runs;
         while !runs.is_empty() {
             let (block, rest) = runs.split_at(self.runs_at_once(runs.len()));
             self.add_block(block.iter());
             runs = rest;
         }
-        for draw in tail {
-            self.add(*draw);
-        }
+        self.add_singly(tail.iter().copied());
     }
 
     #[inline(always)]
     fn add_from(&mut self, count: u64, mut draw: impl FnMut() -> D) {
-        let singles = self.singles(usize::try_from(count).unwrap_or(usize::MAX)) as u64;
-        for _ in 0..singles {
-            self.add(draw());
-        }
-        let mut runs = (count - singles) / BLOCK as u64;
-        let tail = (count - singles) % BLOCK as u64;
+        let singles = self.singles(usize::try_from(count).unwrap_or(usize::MAX));
+        self.add_singly(iter::repeat_with(&mut draw).take(singles));
+        let rest = count - singles as u64;
+        let mut runs = rest / BLOCK as u64;
         while runs > 0 {
             let some = self.runs_at_once(usize::try_from(runs).unwrap_or(usize::MAX)) as u64;
             self.add_block((0..some).map(|_| core::array::from_fn::<D, BLOCK, _>(|_| draw())));
             runs -= some;
         }
-        for _ in 0..tail {
-            self.add(draw());
-        }
+        self.add_singly(iter::repeat_with(draw).take((rest % BLOCK as u64) as usize));
     }
 }
 
@@ -401,9 +409,8 @@ impl<V: Lanes, B: Takes<Draw<V>>> AccumulateSlices<V> for Blocked<V, B> {
         let singles = self.singles(f.len());
         let ((single_f, f), (single_h, h)) = (f.split_at(singles), h.split_at(singles));
         let ((runs_f, tail_f), (runs_h, tail_h)) = (f.as_chunks::<BLOCK>(), h.as_chunks::<BLOCK>());
-        for (f, h) in single_f.iter().zip(single_h) {
-            self.add(Draw::new(*f, *h));
-        }
+        let draw = |(f, h): (&V, &V)| Draw::new(*f, *h);
+        self.add_singly(single_f.iter().zip(single_h).map(draw));
         let (mut runs_f, mut runs_h) = (runs_f, runs_h);
         while !runs_f.is_empty() {
             let at_once = self.runs_at_once(runs_f.len());
@@ -411,9 +418,7 @@ impl<V: Lanes, B: Takes<Draw<V>>> AccumulateSlices<V> for Blocked<V, B> {
             self.add_block(block_f.iter().zip(block_h));
             (runs_f, runs_h) = (rest_f, rest_h);
         }
-        for (f, h) in tail_f.iter().zip(tail_h) {
-            self.add(Draw::new(*f, *h));
-        }
+        self.add_singly(tail_f.iter().zip(tail_h).map(draw));
         Ok(())
     }
 }

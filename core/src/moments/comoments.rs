@@ -227,7 +227,10 @@ impl<V: Lanes, const K: usize> Takes<Draw<V, K>> for ComomentsBlock<V, K> {
     #[inline(always)]
     fn add(&mut self, _: usize, draw: &Draw<V, K>) {
         let f = draw.f - self.shift.f;
-        let h: [V; K] = filled(V::ZERO, |k| draw.h[k] - self.shift.h[k]);
+        let mut h = draw.h;
+        for (h, shift) in h.iter_mut().zip(self.shift.h) {
+            *h = *h - shift;
+        }
         let e = residual(f, &self.slope, &h);
         self.f = self.f + f;
         for (sum, h) in self.h.iter_mut().zip(h) {
