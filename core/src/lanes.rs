@@ -61,6 +61,18 @@ pub trait Lanes:
     /// `yes` where `mask` is set, else `no`. A choice of bits: what is not chosen leaves no trace,
     /// not even a NaN.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// `self` where `mask` is set, else 0: a choice of bits for which packs need one operation, not three.
+    #[inline(always)]
+    #[must_use]
+    fn only(self, mask: Self::Mask) -> Self {
+        Self::select(mask, self, Self::ZERO)
+    }
+    /// 0 where `mask` is set, else `self`.
+    #[inline(always)]
+    #[must_use]
+    fn except(self, mask: Self::Mask) -> Self {
+        Self::select(mask, Self::ZERO, self)
+    }
 }
 
 /// One value per lane of a [`Lanes`] type; see [`Lanes::PerLane`].
@@ -177,6 +189,8 @@ mod tests {
     fn select_leaves_no_trace_of_the_other_side() {
         assert_eq!(f64::select(false, f64::NAN, 2.0), 2.0);
         assert_eq!(f64::select(true, 1.0, f64::NAN), 1.0);
+        assert_eq!((f64::NAN.only(false), f64::NAN.except(true)), (0.0, 0.0));
+        assert_eq!((2.0.only(true), 2.0.except(false)), (2.0, 2.0));
     }
 
     #[test]

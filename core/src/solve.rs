@@ -34,14 +34,14 @@ pub(crate) fn solve<W: Lanes<Scalar = f64>, const K: usize>(
     let (mut rest, mut x, mut free, mut determined) = (*a, *b, *wanted, [W::ZERO; K]);
     if K == 1 {
         // No order to find, nothing to eliminate.
-        let determined = filled(W::ZERO, |k| W::select(W::ZERO.lt(a[k][k]), wanted[k], W::ZERO));
-        let over = |k: usize| W::select(W::equal(determined[k], W::ONE), b[k] / a[k][k], W::ZERO);
+        let determined = filled(W::ZERO, |k| wanted[k].only(W::ZERO.lt(a[k][k])));
+        let over = |k: usize| (b[k] / a[k][k]).only(W::equal(determined[k], W::ONE));
         return Solution { x: filled(W::ZERO, over), determined, rest };
     }
     for _ in 0..K {
         let (mut largest, mut chosen) = (W::splat(tolerance), W::splat(-1.0));
         for k in 0..K {
-            let share = W::select(W::equal(free[k], W::ONE), rest[k][k] / a[k][k], W::ZERO);
+            let share = (rest[k][k] / a[k][k]).only(W::equal(free[k], W::ONE));
             let better = largest.lt(share);
             largest = W::select(better, share, largest);
             chosen = W::select(better, W::splat(k as f64), chosen);
@@ -54,16 +54,16 @@ pub(crate) fn solve<W: Lanes<Scalar = f64>, const K: usize>(
         let row: [W; K] = filled(W::ZERO, |j| pick(&|k| rest[k][j], W::ZERO));
         let (pivot, right) = (pick(&|k| rest[k][k], W::ONE), pick(&|k| x[k], W::ZERO));
         for i in 0..K {
-            let factor = W::select(is_chosen[i], W::ZERO, pick(&|k| rest[i][k], W::ZERO) / pivot);
+            let factor = (pick(&|k| rest[i][k], W::ZERO) / pivot).except(is_chosen[i]);
             for j in 0..K {
                 rest[i][j] = rest[i][j] - factor * row[j];
             }
             x[i] = x[i] - factor * right;
-            free[i] = W::select(is_chosen[i], W::ZERO, free[i]);
+            free[i] = free[i].except(is_chosen[i]);
             determined[i] = W::select(is_chosen[i], W::ONE, determined[i]);
         }
     }
-    let x = filled(W::ZERO, |k| W::select(W::equal(determined[k], W::ONE), x[k] / rest[k][k], W::ZERO));
+    let x = filled(W::ZERO, |k| (x[k] / rest[k][k]).only(W::equal(determined[k], W::ONE)));
     Solution { x, determined, rest }
 }
 
@@ -73,10 +73,8 @@ impl<W: Lanes<Scalar = f64>, const K: usize> Solution<W, K> {
     pub(crate) fn of_minimum_norm(&self) -> [W; K] {
         // x_p = c_p − Σ_q t_pq·x_q for dropped q; Σ_p x_p² + Σ_q x_q² is least where (1 + tᵀt)x_q = tᵀc.
         let is_determined = |k: usize| W::equal(self.determined[k], W::ONE);
-        let t = |p: usize, q: usize| {
-            let coupling = W::select(is_determined(p), self.rest[p][q] / self.rest[p][p], W::ZERO);
-            W::select(is_determined(q), W::ZERO, coupling)
-        };
+        let t =
+            |p: usize, q: usize| (self.rest[p][q] / self.rest[p][p]).only(is_determined(p)).except(is_determined(q));
         let products = |one: &dyn Fn(usize) -> W, other: &dyn Fn(usize) -> W| {
             (0..K).fold(W::ZERO, |sum, p| sum + one(p) * other(p))
         };

@@ -111,6 +111,14 @@ impl<L: Lanes, const K: usize> Lanes for Spectrum<L, K> {
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
         Self(filled(L::ZERO, |pack| L::select(mask[pack], yes.0[pack], no.0[pack])))
     }
+    #[inline(always)]
+    fn only(self, mask: Self::Mask) -> Self {
+        Self(filled(L::ZERO, |pack| self.0[pack].only(mask[pack])))
+    }
+    #[inline(always)]
+    fn except(self, mask: Self::Mask) -> Self {
+        Self(filled(L::ZERO, |pack| self.0[pack].except(mask[pack])))
+    }
 }
 
 #[cfg(test)]
@@ -141,6 +149,8 @@ mod tests {
             assert_eq!(bits(-x), (-a[i]).to_bits());
             assert_eq!(x.lt(y)[i], a[i] < b[i]);
             assert_eq!(x.equal(y)[i], a[i] == b[i]);
+            assert_eq!(bits(y.only(x.lt(y))), (if a[i] < b[i] { b[i] } else { 0.0 }).to_bits());
+            assert_eq!(bits(y.except(x.lt(y))), (if a[i] < b[i] { 0.0 } else { b[i] }).to_bits());
             assert_eq!((x + y).widen().get(i).to_bits(), f64::from(a[i] + b[i]).to_bits());
         }
     }

@@ -86,13 +86,14 @@ impl<V: Lanes> Takes<Draw<V>> for ExtremesBlock<V> {
     fn add(&mut self, _: usize, draw: &Draw<V>) {
         let abs = |x: V| V::select(x.lt(V::ZERO), -x, x);
         let h = draw.h[0];
-        let if_zero = |x: V, yes: V, no: V| V::select(V::equal(x, V::ZERO), yes, no);
+        let no_h = V::ONE.only(V::equal(h, V::ZERO));
+        let no_f = V::equal(draw.f, V::ZERO);
         self.join(&Self {
             abs_f: abs(draw.f),
             abs_h: abs(h),
             max_f: abs(draw.f),
-            nothing: if_zero(h, if_zero(draw.f, V::ONE, V::ZERO), V::ZERO),
-            unbounded: if_zero(h, if_zero(draw.f, V::ZERO, V::ONE), V::ZERO),
+            nothing: no_h.only(no_f),
+            unbounded: no_h.except(no_f),
         });
     }
     #[inline(always)]

@@ -22,7 +22,7 @@ impl<V: Lanes, const K: usize> Pairs<V, K> {
     #[inline(always)]
     pub fn weighted(draw: Draw<V, K>, weights: [V; K]) -> Self {
         // A weight of 0 leaves no trace, not even of an f that is not a number.
-        let part = |k: usize| V::select(V::equal(weights[k], V::ZERO), V::ZERO, weights[k] * draw.f);
+        let part = |k: usize| (weights[k] * draw.f).except(V::equal(weights[k], V::ZERO));
         Self(core::array::from_fn(|k| Draw::new(part(k), draw.h[k])))
     }
 }

@@ -79,7 +79,7 @@ impl<V: Lanes> Quantity for RatioOf<V> {
         let h = self.floor + V::narrow(V::Wide::splat(1.0 - self.weight)) * draw.h[0];
         // h·0 is 0 unless h is infinite: then r is NaN, not a silent 0.
         let ratio = draw.f / h + h * V::ZERO;
-        let nothing = V::select(V::equal(draw.f, V::ZERO), planted!("ratio_of_nothing": V::ZERO, ratio), ratio);
+        let nothing = planted!("ratio_of_nothing": ratio.except(V::equal(draw.f, V::ZERO)), ratio);
         V::select(V::equal(h, V::ZERO), nothing, ratio)
     }
     fn channel(&self, channel: usize) -> RatioOf<f64> {

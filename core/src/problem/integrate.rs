@@ -90,7 +90,7 @@ impl<F: Integrand<X>, A, P: Proposal<Point = X>, X> Problem<F, A, P, X> {
         let over = |value: F::Value| {
             // A division, never a product with 1/pdf: that overflows for the smallest pdfs.
             let quotient = value / pdf;
-            let nothing = F::Value::select(F::Value::equal(value, F::Value::ZERO), F::Value::ZERO, quotient);
+            let nothing = quotient.except(F::Value::equal(value, F::Value::ZERO));
             F::Value::select(F::Value::equal(pdf, F::Value::ZERO), nothing, quotient)
         };
         Draw { f: over(self.integrand.value(x)), h: self.auxiliaries.values(x).map(over) }
