@@ -10,6 +10,8 @@ use core::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
 /// `Spectrum<Spectrum<f32, 8>, 3>` eight RGB pixels. Channel `i` is lane `i % L::LANES` of pack
 /// `i / L::LANES`.
 ///
+/// With `K` = 0 there is no channel: accumulators count draws, and estimates are of nothing.
+///
 /// Aligned to 16 bytes only where a pack is: an RGB pixel takes 12 bytes, not 16.
 ///
 /// ```

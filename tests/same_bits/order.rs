@@ -1,0 +1,83 @@
+//! The order of summation, written out once more: a mean of plain numbers, without lanes, kernels or states.
+
+use crate::hostile::draws;
+use ratiocv_core::moments::{Accumulate, BLOCK, HasMeans, Moments, Sums};
+use ratiocv_core::{Lanes, Spectrum};
+use ratiocv_simd::{F32x4, F32x8, F32x16};
+
+/// A mean on its way: the first number, the mean relative to it, and how many there were.
+#[derive(Clone, Copy)]
+struct Mean {
+    anchor: f64,
+    relative: f64,
+    count: u64,
+}
+
+/// The mean of a block, by `parts` sums in `f32` of what lies above its first number.
+fn block(numbers: &[f32], parts: usize) -> Mean {
+    let shift = numbers[0];
+    let mut sums = vec![0.0_f32; parts];
+    for (i, x) in numbers.iter().enumerate() {
+        sums[i % parts] += x - shift;
+    }
+    while sums.len() > 1 {
+        let upper = sums.split_off(sums.len() / 2);
+        for (lower, upper) in sums.iter_mut().zip(upper) {
+            *lower += upper;
+        }
+    }
+    let count = numbers.len() as u64;
+    Mean { anchor: f64::from(shift), relative: f64::from(sums[0]) / count as f64, count }
+}
+
+/// The two together, about the anchor of the larger.
+fn joined(earlier: Mean, later: Mean) -> Mean {
+    let (large, small) = if later.count > earlier.count { (later, earlier) } else { (earlier, later) };
+    let count = earlier.count + later.count;
+    let apart = (small.anchor - large.anchor) + (small.relative - large.relative);
+    Mean { relative: large.relative + apart * (small.count as f64 / count as f64), count, ..large }
+}
+
+/// Blocks of one for the first four numbers, then blocks of 64 in `parts` sums, then the rest in one.
+fn mean(numbers: &[f32], parts: usize) -> f64 {
+    let (first, rest) = numbers.split_at(4);
+    let (whole, rest) = rest.as_chunks::<BLOCK>();
+    let blocks = first.iter().map(|x| block(&[*x], 1)).chain(whole.iter().map(|numbers| block(numbers, parts)));
+    let blocks = blocks.chain((!rest.is_empty()).then(|| block(rest, 1)));
+    let mean = blocks.reduce(joined).expect("at least four numbers");
+    mean.anchor + mean.relative
+}
+
+/// Means of every channel, added at once (`parts` sums per block) and one by one (one sum per block).
+fn check<V: Lanes<Scalar = f32>>(parts: usize) {
+    let draws = draws::<V, 0>(0, 4 + 5 * BLOCK + 37);
+    let (mut at_once, mut one_by_one) = (Sums::<V, 0>::default(), Sums::<V, 0>::default());
+    at_once.add_batch(&draws);
+    for draw in &draws {
+        one_by_one.add(*draw);
+    }
+    // Infinities and NaNs are not asked for here.
+    for channel in (0..V::LANES).filter(|channel| ![8, 9].contains(&(channel % 11))) {
+        let numbers: Vec<f32> = draws.iter().map(|draw| draw.f.get(channel)).collect();
+        for (moments, parts) in [(&at_once, parts), (&one_by_one, 1)] {
+            let ours = moments.closed().channel(channel).means(moments.count()).f;
+            let right = mean(&numbers, parts);
+            assert_eq!(ours.to_bits(), right.to_bits(), "channel {channel} of {}: {ours}, {right}", V::LANES);
+        }
+    }
+}
+
+#[test]
+fn partial_sums_are_a_function_of_the_number_of_channels() {
+    check::<f32>(16);
+    check::<Spectrum<f32, 2>>(8);
+    check::<Spectrum<f32, 3>>(16);
+    check::<Spectrum<f32, 12>>(4);
+    check::<Spectrum<f32, 16>>(1);
+    check::<Spectrum<f32, 40>>(2);
+    check::<F32x4>(4);
+    check::<F32x8>(2);
+    check::<F32x16>(1);
+    check::<Spectrum<F32x8, 3>>(2);
+    check::<Spectrum<F32x4, 3>>(4);
+}
