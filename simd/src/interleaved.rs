@@ -70,3 +70,53 @@ pub fn scatter<L: Lanes, const C: usize>(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{F32x4, F32x8, F64x2};
+
+    /// Rows of every length there and back; every number at its place, and 0 where there is none.
+    fn there_and_back<L: Lanes, const C: usize>() {
+        let numbers: [L::Scalar; 64] = core::array::from_fn(|i| L::Scalar::from_f64(1.0 + i as f64));
+        for pixels in 0..=64 / C {
+            let row = &numbers[..pixels * C];
+            let packs = gather::<L, C>(row).unwrap();
+            assert_eq!(packs.len(), pixels.div_ceil(L::LANES));
+            for (p, pack) in packs.enumerate() {
+                for c in 0..C {
+                    for i in 0..L::LANES {
+                        let number = row.get((p * L::LANES + i) * C + c).copied();
+                        assert_eq!(pack[c].get(i), number.unwrap_or(L::Scalar::ZERO), "pixel {i} of pack {p}");
+                    }
+                }
+            }
+            let mut back = [-L::Scalar::ONE; 64];
+            scatter(gather::<L, C>(row).unwrap(), &mut back[..pixels * C]).unwrap();
+            assert_eq!(back[..pixels * C], *row);
+            assert!(back[pixels * C..].iter().all(|x| *x == -L::Scalar::ONE), "written beyond the row");
+        }
+    }
+
+    #[test]
+    fn every_pixel_comes_back() {
+        there_and_back::<F32x4, 3>();
+        there_and_back::<F32x8, 3>();
+        there_and_back::<F32x8, 4>();
+        there_and_back::<F64x2, 1>();
+        there_and_back::<Spectrum<f32, 8>, 3>();
+        there_and_back::<f64, 5>();
+    }
+
+    #[test]
+    fn wrong_lengths_are_errors_and_nothing_is_written() {
+        let mismatch = |what, expected, got| Error::LengthMismatch { what, expected, got };
+        let mut row = [7.0_f32; 16];
+        let of_five = mismatch("row of whole pixels", 15, 16);
+        assert_eq!(gather::<F32x4, 3>(&row).err(), Some(of_five));
+        assert_eq!(scatter([Spectrum::<F32x4, 3>::ZERO; 2], &mut row), Err(of_five));
+        assert_eq!(scatter([Spectrum::<F32x4, 3>::ZERO; 1], &mut row[..15]), Err(mismatch("packs", 2, 1)));
+        assert_eq!(scatter([Spectrum::<F32x4, 3>::ZERO; 3], &mut row[..15]), Err(mismatch("packs", 2, 3)));
+        assert_eq!(row, [7.0; 16]);
+    }
+}

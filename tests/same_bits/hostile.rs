@@ -57,23 +57,31 @@ fn noise(key: u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// Entry `entry` of draw `draw` in channel `channel`. Channels differ in kind: ordinary, of both signs,
-/// constant, with zeros of either sign, at the lower and the upper end of the range, of very different
-/// sizes, with an infinity, with a NaN.
-fn entry<S: Bits>(draw: usize, channel: usize, entry: usize) -> S {
-    let x = noise(((draw as u64) << 20) | ((channel as u64) << 4) | entry as u64);
+/// Entry `number` of draw `draw` in channel `channel`: f, then each h. Channels differ in kind: ordinary, with
+/// zeros of either sign, at the lower edge of what can be squared, of very different sizes, constant, of both
+/// signs, at the upper and at the lower end of the range, with an infinity, with a NaN.
+fn entry<S: Bits>(draw: usize, channel: usize, number: usize) -> S {
+    let noise = |number: usize| noise(((draw as u64) << 20) | ((channel as u64) << 4) | number as u64);
+    let x = noise(number);
     let unit = S::from_f64(0.5 + x);
+    // No h is 0 unless f is: their ratio would be infinite.
+    let is_zero = noise(0) < if number == 0 { 0.4 } else { 0.2 };
     match channel % 11 {
-        2 => S::from_f64(x - 0.5),
-        3 => S::from_f64(0.1),
-        4 if x < 0.2 => S::ZERO,
-        4 if x < 0.4 => -S::ZERO,
-        5 => unit * S::min_positive_value() * S::from_f64(0.001),
+        1 if is_zero => {
+            if x.to_bits() & 4096 == 0 {
+                S::ZERO
+            } else {
+                -S::ZERO
+            }
+        }
+        2 => unit * root_of_tiny(),
+        3 => unit * S::from_f64(libm::exp2(libm::floor(80.0 * x - 40.0))),
+        4 => S::from_f64(0.1),
+        5 => S::from_f64(x - 0.5),
         6 => unit * S::max_value() * S::from_f64(0.25),
-        7 => unit * S::from_f64(libm::exp2(libm::floor(80.0 * x - 40.0))),
+        7 => unit * S::min_positive_value() * S::from_f64(0.001),
         8 if draw == 97 => S::infinity(),
         9 if draw == 130 => S::NAN_WITH_PAYLOAD,
-        10 => unit * root_of_tiny(),
         _ => unit,
     }
 }

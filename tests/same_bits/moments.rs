@@ -8,10 +8,7 @@ use ratiocv_core::moments::{
     Groups, GroupsBlock, Joined, Mean, Merge, Moments, Pairs, RatioMean, RatioOf, RatioVariance, Sums, Third,
     ThirdBlock, UnivariateBlock, Variance, Widened,
 };
-use ratiocv_core::{
-    Beale, Choose, CrossFitted, Difference, Draw, Estimator, HartleyRoss, Integrals, Jackknife, Lanes, MeanOfRatios,
-    Mickey, OptimalDefensive, Plain, Quenouille, RatioOfMeans, Reads, RegressionRatio, Spectrum, Tin,
-};
+use ratiocv_core::{Draw, Integrals, Lanes, Spectrum};
 use ratiocv_simd::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 
 /// Draws of a run: several blocks and some more.
@@ -23,10 +20,6 @@ pub(crate) trait Recipe {
     type Moments<V: Lanes>: Accumulate<Self::Draw<V>> + Merge + Moments<Channel: Debug> + Clone;
     fn draws<V: Lanes<Scalar: Bits>>(first: usize, count: usize) -> Vec<Self::Draw<V>>;
     fn empty<V: Lanes>(integrals: &Integrals<V>) -> Self::Moments<V>;
-    /// What is read from them, in words.
-    fn read<V: Lanes>(_: &Self::Moments<V>, _: &Integrals<V>, _: usize) -> String {
-        String::new()
-    }
 }
 
 macro_rules! recipes {
@@ -82,7 +75,7 @@ impl Recipe for TwoPairs {
     }
 }
 
-/// All that estimators read in one pass, and what they make of it.
+/// All that estimators read, in one pass.
 pub(crate) struct Everything;
 
 type EverythingBlock<V> = Joined<
@@ -103,35 +96,6 @@ impl Recipe for Everything {
     fn empty<V: Lanes>(integrals: &Integrals<V>) -> Self::Moments<V> {
         let defended = RatioVariance::defensive(0.01, integrals).unwrap();
         Blocked::with_ratios(Blocked::both(RatioVariance::default(), defended))
-    }
-    fn read<V: Lanes>(moments: &Self::Moments<V>, integrals: &Integrals<V>, channel: usize) -> String {
-        let mut text = String::new();
-        macro_rules! estimates {
-            ($($estimator:expr),*) => {$(
-                let estimate = $estimator.estimate_anyway(moments, integrals).channel(channel);
-                text += &format!("{:?}\n", estimate);
-            )*};
-        }
-        estimates!(
-            Plain,
-            RatioOfMeans,
-            Quenouille,
-            Beale,
-            Tin,
-            Jackknife,
-            MeanOfRatios,
-            HartleyRoss,
-            Mickey,
-            RatioOfMeans.defensive(0.01).unwrap(),
-            HartleyRoss.defensive(0.01).unwrap(),
-            Mickey.defensive(0.01).unwrap(),
-            RegressionRatio::default(),
-            OptimalDefensive::of(Mickey),
-            Difference::default(),
-            CrossFitted(Difference::default()),
-            Choose::default()
-        );
-        text
     }
 }
 
@@ -183,7 +147,7 @@ fn called<D: Copy, M: Accumulate<D> + Merge + Clone>(empty: &M, draws: &[D]) -> 
     ]
 }
 
-/// The moments of `channels` channels from `first` on, and all that is read from them, after all those calls;
+/// The moments of `channels` channels from `first` on after all those calls,
 /// in words, in which numbers are the shortest that read back as the same bits (of NaNs, only that they are NaN).
 fn in_words<R: Recipe, V: Lanes<Scalar: Bits>>(first: usize, channels: usize) -> Vec<String> {
     let integrals = Integrals::new([V::Wide::from_fn(|i| 0.75 + 0.01 * (first + i) as f64)]);
@@ -193,7 +157,6 @@ fn in_words<R: Recipe, V: Lanes<Scalar: Bits>>(first: usize, channels: usize) ->
         let closed = moments.closed();
         for (channel, words) in words.iter_mut().enumerate() {
             *words += &format!("{} draws: {:?}\n", moments.count(), closed.channel(channel));
-            *words += &R::read(&closed, &integrals, channel);
         }
     }
     words
@@ -207,13 +170,13 @@ pub(crate) fn compare<R: Recipe, V: Lanes<Scalar: Bits>>() -> Result<(), String>
     let together = in_words::<R, V>(0, V::LANES);
     for (channel, ours) in together.iter().enumerate() {
         // The order of summation is that of P = 16/gcd(M, 16) partial sums, for M channels.
-        let alone = if V::LANES % 16 == 0 {
+        let alone = if const { V::LANES % 16 == 0 } {
             in_words::<R, Alone<V::Scalar, 16>>(channel, 1)
-        } else if V::LANES % 8 == 0 {
+        } else if const { V::LANES % 8 == 0 } {
             in_words::<R, Alone<V::Scalar, 8>>(channel, 1)
-        } else if V::LANES % 4 == 0 {
+        } else if const { V::LANES % 4 == 0 } {
             in_words::<R, Alone<V::Scalar, 4>>(channel, 1)
-        } else if V::LANES % 2 == 0 {
+        } else if const { V::LANES % 2 == 0 } {
             in_words::<R, Alone<V::Scalar, 2>>(channel, 1)
         } else {
             in_words::<R, Alone<V::Scalar, 1>>(channel, 1)
@@ -244,38 +207,35 @@ same_bits! {
         DefensiveRatios TwoGroups EightGroups TwoFolds ThirdMoments Tails InDouble TwoPairs
     ] on F32x8;
     // Everything holds the kernels of the others.
-    everything_on_single_packs: [Everything] on F32x4, F32x8, F32x16;
-    everything_on_double_packs: [Everything] on F64x2, F64x4, F64x8;
-    everything_on_scalars_and_arrays: [Everything] on f32, f64, Spectrum<f32, 3>, Spectrum<f32, 16>;
-    two_auxiliaries: [ComomentsOfTwo] on F32x4, F64x4, Spectrum<f32, 3>;
-    packs_side_by_side: [SumsOfTwo ComomentsOfOne RawRatios] on
-        Spectrum<F32x4, 2>, Spectrum<F32x8, 3>, Spectrum<F64x4, 3>, Spectrum<Spectrum<f32, 8>, 3>;
-    no_channel_at_all: [Everything] on Spectrum<f32, 0>, Spectrum<F32x8, 0>, Spectrum<Spectrum<f64, 0>, 2>;
-    co_moments_of_some_widths: [ComomentsOfOne] on
-        Spectrum<f32, 2>, Spectrum<f32, 7>, Spectrum<f32, 24>, Spectrum<f64, 5>, Spectrum<f64, 12>;
+    everything_on_packs: [Everything] on F32x4, F32x8, F32x16, F64x2, F64x4, F64x8;
+    everything_on_arrays: [Everything] on Spectrum<f32, 3>;
+    two_auxiliaries: [ComomentsOfTwo] on F64x4, Spectrum<f32, 3>;
+    packs_side_by_side: [ComomentsOfOne] on Spectrum<F32x4, 2>, Spectrum<F32x8, 3>, Spectrum<Spectrum<f32, 8>, 3>;
+    some_widths: [ComomentsOfOne] on f32, f64, Spectrum<f32, 2>, Spectrum<f32, 12>, Spectrum<f32, 16>;
+    no_channel_at_all: [ComomentsOfOne] on Spectrum<f32, 0>, Spectrum<F32x8, 0>, Spectrum<Spectrum<f64, 0>, 2>;
 }
 
-/// Means, and means with variances, on every number of packs of a list.
+/// Means on every number of packs of a list.
 macro_rules! every_width {
-    ($($name:ident: $recipe:ident of $lanes:ty, $($k:literal)*;)*) => {$(
+    ($($name:ident: $lanes:ty, $($k:literal)*;)*) => {$(
         #[test]
         fn $name() {
-            $(assert_eq!(compare::<$recipe, Spectrum<$lanes, $k>>(), Ok(()), "{}", $k);)*
+            $(assert_eq!(compare::<MeanOnly, Spectrum<$lanes, $k>>(), Ok(()), "{}", $k);)*
         }
     )*};
 }
 
 every_width! {
-    every_number_of_f32: VarianceOnly of
+    every_number_of_f32:
         f32, 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32 33 34 35 36 37 38
         39 40 41 42 43 44 45 46 47 48 49 50 51 52 53 54 55 56 57 58 59 60 61 62 63 64 65 66 67 68 69 70;
-    every_number_of_f64: MeanOnly of
+    every_number_of_f64:
         f64, 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32 33 34 35 36 37 38
         39 40 41 42 43 44 45 46 47 48 49 50 51 52 53 54 55 56 57 58 59 60 61 62 63 64 65 66 67 68 69 70;
-    every_number_of_f32x4: VarianceOnly of F32x4, 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17;
-    every_number_of_f32x8: VarianceOnly of F32x8, 0 1 2 3 4 5 6 7 8;
-    every_number_of_f32x16: VarianceOnly of F32x16, 0 1 2 3 4;
-    every_number_of_f64x2: MeanOnly of F64x2, 0 1 2 3 5 7 8 9 16 31 32 35;
-    every_number_of_f64x4: MeanOnly of F64x4, 0 1 2 3 5 7 8 9 16 17;
-    every_number_of_f64x8: MeanOnly of F64x8, 0 1 2 3 4 5 7 8;
+    numbers_of_f32x4: F32x4, 1 2 3 4 5 7 8 12 17;
+    numbers_of_f32x8: F32x8, 1 2 3 5 8;
+    numbers_of_f32x16: F32x16, 1 2 3 4;
+    numbers_of_f64x2: F64x2, 1 2 3 8 35;
+    numbers_of_f64x4: F64x4, 1 2 3 17;
+    numbers_of_f64x8: F64x8, 1 3 8;
 }
