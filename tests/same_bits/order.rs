@@ -13,12 +13,21 @@ struct Mean {
     count: u64,
 }
 
-/// The mean of a block, by `parts` sums in `f32` of what lies above its first number.
+/// The mean of a block of one or more runs, by `parts` sums in `f32` of what lies above its first number: run by
+/// run, then part by part.
 fn block(numbers: &[f32], parts: usize) -> Mean {
     let shift = numbers[0];
-    let mut sums = vec![0.0_f32; parts];
-    for (i, x) in numbers.iter().enumerate() {
-        sums[i % parts] += x - shift;
+    let mut sums = vec![];
+    for run in numbers.chunks(BLOCK) {
+        let mut of_run = vec![0.0_f32; parts];
+        for (i, x) in run.iter().enumerate() {
+            of_run[i % parts] += x - shift;
+        }
+        if sums.is_empty() {
+            sums = of_run;
+        } else {
+            sums.iter_mut().zip(of_run).for_each(|(sum, of_run)| *sum += of_run);
+        }
     }
     while sums.len() > 1 {
         let upper = sums.split_off(sums.len() / 2);
@@ -38,19 +47,20 @@ fn joined(earlier: Mean, later: Mean) -> Mean {
     Mean { relative: large.relative + apart * (small.count as f64 / count as f64), count, ..large }
 }
 
-/// Blocks of one for the first four numbers, then blocks of 64 in `parts` sums, then the rest in one.
-fn mean(numbers: &[f32], parts: usize) -> f64 {
+/// Blocks of one for the first four numbers, then blocks of up to `runs` runs in `parts` sums, then the rest in one.
+fn mean(numbers: &[f32], runs: usize, parts: usize) -> f64 {
     let (first, rest) = numbers.split_at(4);
-    let (whole, rest) = rest.as_chunks::<BLOCK>();
-    let blocks = first.iter().map(|x| block(&[*x], 1)).chain(whole.iter().map(|numbers| block(numbers, parts)));
+    let (whole, rest) = rest.split_at(rest.len() / BLOCK * BLOCK);
+    let whole = whole.chunks(runs * BLOCK).map(|numbers| block(numbers, parts));
+    let blocks = first.iter().map(|x| block(&[*x], 1)).chain(whole);
     let blocks = blocks.chain((!rest.is_empty()).then(|| block(rest, 1)));
     let mean = blocks.reduce(joined).expect("at least four numbers");
     mean.anchor + mean.relative
 }
 
-/// Means of every channel, added at once (`parts` sums per block) and one by one (one sum per block).
+/// Means of every channel, added at once (16 runs to a block, in `parts` sums) and one by one (one run, one sum).
 fn check<V: Lanes<Scalar = f32>>(parts: usize) {
-    let draws = draws::<V, 0>(0, 4 + 5 * BLOCK + 37);
+    let draws = draws::<V, 0>(0, 4 + 19 * BLOCK + 37);
     let (mut at_once, mut one_by_one) = (Sums::<V, 0>::default(), Sums::<V, 0>::default());
     at_once.add_batch(&draws);
     for draw in &draws {
@@ -59,9 +69,9 @@ fn check<V: Lanes<Scalar = f32>>(parts: usize) {
     // Infinities and NaNs are not asked for here.
     for channel in (0..V::LANES).filter(|channel| ![8, 9].contains(&(channel % 11))) {
         let numbers: Vec<f32> = draws.iter().map(|draw| draw.f.get(channel)).collect();
-        for (moments, parts) in [(&at_once, parts), (&one_by_one, 1)] {
+        for (moments, runs, parts) in [(&at_once, 16, parts), (&one_by_one, 1, 1)] {
             let ours = moments.closed().channel(channel).means(moments.count()).f;
-            let right = mean(&numbers, parts);
+            let right = mean(&numbers, runs, parts);
             assert_eq!(ours.to_bits(), right.to_bits(), "channel {channel} of {}: {ours}, {right}", V::LANES);
         }
     }
@@ -69,15 +79,15 @@ fn check<V: Lanes<Scalar = f32>>(parts: usize) {
 
 #[test]
 fn partial_sums_are_a_function_of_the_number_of_channels() {
-    check::<f32>(16);
-    check::<Spectrum<f32, 2>>(8);
-    check::<Spectrum<f32, 3>>(16);
-    check::<Spectrum<f32, 12>>(4);
+    check::<f32>(8);
+    check::<Spectrum<f32, 2>>(4);
+    check::<Spectrum<f32, 3>>(8);
+    check::<Spectrum<f32, 12>>(2);
     check::<Spectrum<f32, 16>>(1);
-    check::<Spectrum<f32, 40>>(2);
-    check::<F32x4>(4);
-    check::<F32x8>(2);
+    check::<Spectrum<f32, 40>>(1);
+    check::<F32x4>(2);
+    check::<F32x8>(1);
     check::<F32x16>(1);
-    check::<Spectrum<F32x8, 3>>(2);
-    check::<Spectrum<F32x4, 3>>(4);
+    check::<Spectrum<F32x8, 3>>(1);
+    check::<Spectrum<F32x4, 3>>(2);
 }
