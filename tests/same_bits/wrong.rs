@@ -1,6 +1,6 @@
 //! Lanes that are wrong on purpose: the comparisons must see it.
 
-use crate::moments::{self, ComomentsOfOne, RawRatios, SumsOfOne};
+use crate::moments::{self, ComomentsOfOne, RawRatios, SumsOfOne, ThirdMoments};
 use crate::operations;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use ratiocv_core::{Lanes, Single, Spectrum};
@@ -157,9 +157,9 @@ fn no_wrong_operation_passes() {
 #[test]
 fn accumulators_show_wrong_lanes_too() {
     assert!(moments::compare::<SumsOfOne, Four<LANES_MIXED>>().is_err());
-    assert!(moments::compare::<ComomentsOfOne, Four<SELECT_SWAPPED>>().is_err());
-    assert!(moments::compare::<ComomentsOfOne, Four<SELECT_BY_ARITHMETIC>>().is_err());
-    assert!(moments::compare::<ComomentsOfOne, Four<FLUSHED>>().is_err());
+    assert!(moments::compare::<RawRatios, Four<SELECT_SWAPPED>>().is_err());
+    assert!(moments::compare::<RawRatios, Four<SELECT_BY_ARITHMETIC>>().is_err());
+    assert!(moments::compare::<ThirdMoments, Four<FLUSHED>>().is_err());
     assert!(moments::compare::<RawRatios, Four<RECIPROCAL>>().is_err());
     assert!(moments::compare::<RawRatios, Four<EQUAL_BITS>>().is_err());
 }
