@@ -1,29 +1,25 @@
 //! Channels, pixels or samples side by side: SIMD lanes for `ratiocv-core`.
 //!
 //! # Packs or arrays?
-//! `Spectrum<f32, 16>` is lanes as well, and the compiler vectorises its loops, if it is in the mood: it gives up
-//! on merges, whose operations are many and of two precisions, before it gives up on sums. A pack is vectors
-//! whatever the compiler thinks. Both give the same bits. Instructions of co-moments with one auxiliary, per
-//! draw and channel (per merge and channel in brackets):
+//! `Spectrum<f32, 8>` is lanes as well: the compiler makes vectors of its loops, which it does for sums and not
+//! for all of a merge, whose operations are many and of two precisions. An [`F32x8`] is vectors whatever the
+//! compiler thinks. Both give the same bits. Instructions of co-moments with one auxiliary per channel and draw
+//! (`add_batch`, `add`) or merge, counted by callgrind:
 //!
-//! | 8 channels | x86-64 | x86-64-v3 |
-//! |---|---|---|
-//! | `Spectrum<f32, 8>` | 9.7 (170) | 3.6 (116) |
-//! | `F32x8` | 10.5 (175) | 3.0 (69) |
+//! | lanes | x86-64: batch | add | merge | x86-64-v3: batch | add | merge |
+//! |---|---|---|---|---|---|---|
+//! | `Spectrum<f32, 8>` | 4.7 | 11.1 | 143 | 2.1 | 5.7 | 92 |
+//! | `F32x8` | 4.7 | 12.4 | 136 | 2.1 | 5.8 | 68 |
+//! | `Spectrum<f32, 32>` | 7.5 | 13.6 | 254 | 3.2 | 5.2 | 133 |
+//! | `Spectrum<F32x8, 4>` | 7.2 | 11.6 | 140 | 3.2 | 4.0 | 61 |
 //!
-//! | 32 channels | x86-64 | x86-64-v3 |
-//! |---|---|---|
-//! | `Spectrum<f32, 32>` | 15.3 (336) | 7.4 (179) |
-//! | `Spectrum<F32x8, 4>` | 12.5 (257) | 4.5 (102) |
-//!
-//! A pack is as fast as the instructions of the *build*: without `-C target-cpu=x86-64-v3` (or `native`) an
-//! [`F32x8`] is two registers of SSE2, and an array is as good. So: packs where the target is known and pixels or
-//! wavelengths come in fours, eights or sixteens; arrays for RGB pixel by pixel and for builds that run anywhere.
-//! [`gather`] makes packs of eight pixels out of interleaved RGB.
+//! A pack takes its instructions from the *build* (`-C target-cpu=x86-64-v3`); an array takes those of the function
+//! that it is inlined into, so that [`at_best_level`] speeds up arrays and not packs. So: arrays for batches
+//! and for builds that run anywhere; packs where draws come one by one or merges are many, channels are
+//! many, and the target is known. [`gather`] makes packs of eight pixels out of interleaved RGB.
 //!
 //! No operation here fuses a multiplication with an addition or takes a reciprocal for a quotient. `wide`'s own
-//! functions beyond those of [`Lanes`](ratiocv_core::Lanes) (`mul_add`, `exp`, `ln`, `powf`) do, depending on the
-//! target, and are not passed on.
+//! functions (`mul_add`, and `exp`, `ln`, `powf` by it) fuse where the target can, and are not passed on.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 
