@@ -75,6 +75,7 @@ pub fn scatter<L: Lanes, const C: usize>(
 mod tests {
     use super::*;
     use crate::{F32x4, F32x8, F64x2};
+    use ratiocv_core::Scalar;
 
     /// Rows of every length there and back; every number at its place, and 0 where there is none.
     fn there_and_back<L: Lanes, const C: usize>() {
