@@ -1,6 +1,7 @@
 //! Every operation of `Lanes`, lane by lane.
 
 use crate::hostile::{Bits, numbers};
+use num_traits::float::FloatCore;
 use ratiocv_core::{Lanes, PerLane, Scalar, Spectrum};
 use ratiocv_simd::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 
@@ -24,7 +25,7 @@ pub(crate) fn compare<V: Lanes<Scalar: Bits>>() -> Result<(), String> {
                 };
                 let exactly = |what: &str, x: V, right: V::Scalar| check(what, x.get(i).bits() == right.bits());
                 let same = |what: &str, x: V, right: V::Scalar| {
-                    check(what, x.get(i).bits() == right.bits() || (x.get(i) != x.get(i) && right != right))
+                    check(what, x.get(i).bits() == right.bits() || (x.get(i).is_nan() && right.is_nan()))
                 };
                 exactly("from_fn", x, a)?;
                 exactly("splat", V::splat(b), b)?;
@@ -50,8 +51,9 @@ pub(crate) fn compare<V: Lanes<Scalar: Bits>>() -> Result<(), String> {
                 let product = V::narrow(x.widen() * V::Wide::splat(1.0 + f64::EPSILON));
                 same("narrow", product, V::Scalar::from_f64(Lanes::widen(a) * (1.0 + f64::EPSILON)))?;
             }
-            let is_number = (0..V::LANES).all(|i| a(i) == a(i));
-            if (x == x) != is_number {
+            let is_number = (0..V::LANES).all(|i| !a(i).is_nan());
+            let again = V::from_fn(a);
+            if (x == again) != is_number {
                 return Err("PartialEq of a pack is not that of all its lanes".into());
             }
         }
