@@ -47,11 +47,13 @@ fn joined(earlier: Mean, later: Mean) -> Mean {
     Mean { relative: large.relative + apart * (small.count as f64 / count as f64), count, ..large }
 }
 
-/// Blocks of one for the first four numbers, then blocks of up to `runs` runs in `parts` sums, then the rest in one.
+/// Blocks of one for the first four numbers, then a block of one run, blocks of up to `runs` runs, each in `parts`
+/// sums, then the rest in one.
 fn mean(numbers: &[f32], runs: usize, parts: usize) -> f64 {
     let (first, rest) = numbers.split_at(4);
     let (whole, rest) = rest.split_at(rest.len() / BLOCK * BLOCK);
-    let whole = whole.chunks(runs * BLOCK).map(|numbers| block(numbers, parts));
+    let (one_run, whole) = whole.split_at(BLOCK);
+    let whole = core::iter::once(one_run).chain(whole.chunks(runs * BLOCK)).map(|numbers| block(numbers, parts));
     let blocks = first.iter().map(|x| block(&[*x], 1)).chain(whole);
     let blocks = blocks.chain((!rest.is_empty()).then(|| block(rest, 1)));
     let mean = blocks.reduce(joined).expect("at least four numbers");
