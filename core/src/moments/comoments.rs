@@ -266,7 +266,7 @@ impl<W: Lanes<Scalar = f64, Wide = W>, const K: usize> ComomentsState<W, K> {
     fn fitted_slopes(ff: W, fh: [W; K], hh: &Squares<W, K>, mean_h: [W; K], count: f64) -> [W; K] {
         let spreads: [W; K] = filled(W::ZERO, |k| {
             let enough = (W::splat(1e-4) * mean_h[k] * mean_h[k]).lt(hh.hh[k][k]);
-            W::select(enough, W::ONE, W::ZERO)
+            W::ONE.only(enough)
         });
         let matrix = filled([W::ZERO; K], |i| filled(W::ZERO, |j| hh.hh(i, j)));
         // Any slopes will do; those of nearly dependent auxiliaries would only be large.
@@ -277,7 +277,7 @@ impl<W: Lanes<Scalar = f64, Wide = W>, const K: usize> ComomentsState<W, K> {
         let sure = doubt.lt(explained * W::splat(freedom));
         // One slope that is not a number would spoil the residuals of all.
         let finite = W::equal(explained * W::ZERO, W::ZERO);
-        filled(W::ZERO, |k| W::select(finite, W::select(sure, fit[k], W::ZERO), W::ZERO))
+        filled(W::ZERO, |k| fit[k].only(sure).only(finite))
     }
 
     /// The same moments with residuals about `slope`.
