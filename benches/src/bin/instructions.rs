@@ -1,30 +1,25 @@
-//! Runs one contender, to be counted by callgrind: `instructions SET/ID PASSES`; `instructions` alone lists
-//! those that are counted, with the samples of a pass. See benches/instructions.
+//! Runs our contenders and those by hand one after another, each inside a call of `counted` for callgrind to
+//! count, and prints their names and the samples that each call goes through. See benches/instructions.
 
 use ratiocv_benches::{Measured, sets};
+
+const PASSES: usize = 8;
 
 /// Other libraries change with their versions, not with us; and AVX-512 is unknown to valgrind.
 fn is_counted(contender: &Measured) -> bool {
     !["average", "statrs", "ndarray-stats"].contains(&contender.id) && !contender.id.starts_with("avx512")
 }
 
+#[inline(never)]
+fn counted(contender: &mut Measured) {
+    for _ in 0..PASSES {
+        contender.pass();
+    }
+}
+
 fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let mut contenders = sets::all(sets::IN_L1);
-    match &arguments[..] {
-        [] => {
-            for contender in contenders.iter().filter(|contender| is_counted(contender)) {
-                println!("{} {}", contender.name(), contender.samples);
-            }
-        }
-        [name, passes] => {
-            let passes: u32 = passes.parse().expect("PASSES is a number");
-            let contender = contenders.iter_mut().find(|contender| contender.name() == *name);
-            let contender = contender.unwrap_or_else(|| panic!("no contender {name}"));
-            for _ in 0..passes {
-                contender.pass();
-            }
-        }
-        _ => panic!("instructions [SET/ID PASSES]"),
+    for contender in &mut sets::all(sets::IN_L1).into_iter().filter(is_counted).collect::<Vec<_>>() {
+        counted(contender);
+        println!("{} {}", contender.name(), PASSES * contender.samples);
     }
 }
