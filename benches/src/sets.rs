@@ -5,7 +5,7 @@
 
 use crate::answer::Answer;
 use crate::contender::{Contender, Measured};
-use crate::draws::draws;
+use crate::draws::Draws;
 #[cfg(target_arch = "x86_64")]
 use crate::kernels::by_hand;
 use crate::kernels::naive::Naive;
@@ -20,7 +20,8 @@ pub const IN_L1: usize = 128;
 /// Draws that make 128 KiB, beyond L1.
 pub const IN_L2: usize = 1024;
 
-/// What `f32` sums over 1024 draws may be off by, of each moment's scale. Between 1e-7 and 3e-6 are seen.
+/// What `f32` sums may be off by, of each moment's scale: over n = 1024 draws rounding makes √n·2⁻²⁴ = 2e-6,
+/// a little more where the first draw is far from the mean, and n·2⁻²⁴ = 6e-5 at worst.
 const SINGLE: f64 = 1e-5;
 /// The same in `f64`.
 const DOUBLE: f64 = 1e-12;
@@ -39,7 +40,7 @@ pub fn comoments(name: &'static str, draws: usize) -> Vec<Measured> {
         .with("ours", SINGLE, Ours::new(Comoments::default(), ours::comoments))
         // "ours-dispatched" comes here: `Ours::fed_by` the function that picks the machine's own level.
         .with("naive", DOUBLE, Naive::default())
-        .with("average", DOUBLE, Average::<16>::new(1))
+        .with("average", DOUBLE, Average::<16, 1>::default())
         .with("statrs", DOUBLE, statrs)
         .with("ndarray-stats", DOUBLE, ndarray_stats);
     #[cfg(target_arch = "x86_64")]
@@ -56,10 +57,10 @@ pub fn comoments(name: &'static str, draws: usize) -> Vec<Measured> {
 pub fn pixels(draws: usize) -> Vec<Measured> {
     let one = Set::<Spectrum<f32, 8>>::singles("pixels-1", draws)
         .with("ours", SINGLE, Ours::new(Comoments::default(), ours::comoments))
-        .with("average", DOUBLE, Average::<1>::new(8));
+        .with("average", DOUBLE, Average::<1, 8>::default());
     let three = Set::<Spectrum<Spectrum<f32, 8>, 3>>::singles("pixels-3", draws)
         .with("ours", SINGLE, Ours::new(Comoments::default(), ours::comoments))
-        .with("average", DOUBLE, Average::<3>::new(8));
+        .with("average", DOUBLE, Average::<3, 8>::default());
     one.contenders.into_iter().chain(three.contenders).collect()
 }
 
@@ -87,26 +88,26 @@ pub fn ratios(draws: usize) -> Vec<Measured> {
 /// Contenders for the same draws.
 struct Set<V> {
     name: &'static str,
-    draws: Rc<[Draw<V>]>,
+    draws: Rc<Draws<V>>,
     right: Vec<Answer>,
     contenders: Vec<Measured>,
 }
 
 impl<V: Lanes<Scalar = f32> + 'static> Set<V> {
     fn singles(name: &'static str, count: usize) -> Self {
-        Self::of(name, draws(count, |x| x as f32))
+        Self::of(name, Draws::new(count, |x| x as f32))
     }
 }
 
 impl<V: Lanes<Scalar = f64> + 'static> Set<V> {
     fn doubles(name: &'static str, count: usize) -> Self {
-        Self::of(name, draws(count, |x| x))
+        Self::of(name, Draws::new(count, |x| x))
     }
 }
 
 impl<V: Lanes + 'static> Set<V> {
-    fn of(name: &'static str, draws: Vec<Draw<V>>) -> Self {
-        Self { name, right: Answer::reference(&draws), draws: draws.into(), contenders: Vec::new() }
+    fn of(name: &'static str, draws: Draws<V>) -> Self {
+        Self { name, right: Answer::reference(&draws), draws: Rc::new(draws), contenders: Vec::new() }
     }
 
     /// Adds a contender; panics if its answer is wrong.
@@ -123,7 +124,7 @@ impl<V: Lanes + 'static> Set<V> {
             }
         }
         let samples = draws.len() * V::LANES;
-        let pass = Box::new(move || contender.pass(core::hint::black_box(&draws)));
+        let pass = Box::new(move || contender.pass(core::hint::black_box(&**draws)));
         self.contenders.push(Measured { set, id, samples, pass });
         self
     }

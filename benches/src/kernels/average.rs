@@ -5,25 +5,24 @@ use crate::contender::Contender;
 use average::Covariance;
 use ratiocv_core::{Draw, Lanes};
 
-/// Pixels of `M` channels each, lane `channel * pixels + pixel`: pixel by pixel, as a renderer would, the
+/// `P` pixels of `M` channels each, lane `channel * P + pixel`: pixel by pixel, as a renderer would, the
 /// channels of a pixel side by side.
-pub(crate) struct Average<const M: usize> {
-    pixels: Vec<[Covariance; M]>,
+pub(crate) struct Average<const M: usize, const P: usize> {
+    pixels: [[Covariance; M]; P],
 }
 
-impl<const M: usize> Average<M> {
-    pub(crate) fn new(pixels: usize) -> Self {
-        Self { pixels: (0..pixels).map(|_| core::array::from_fn(|_| Covariance::new())).collect() }
+impl<const M: usize, const P: usize> Default for Average<M, P> {
+    fn default() -> Self {
+        Self { pixels: core::array::from_fn(|_| core::array::from_fn(|_| Covariance::new())) }
     }
 }
 
-impl<V: Lanes<Scalar = f32>, const M: usize> Contender<Draw<V>> for Average<M> {
+impl<V: Lanes<Scalar = f32>, const M: usize, const P: usize> Contender<Draw<V>> for Average<M, P> {
     fn pass(&mut self, draws: &[Draw<V>]) {
-        let width = self.pixels.len();
         for (pixel, channels) in self.pixels.iter_mut().enumerate() {
             for draw in draws {
                 for (i, channel) in channels.iter_mut().enumerate() {
-                    let lane = i * width + pixel;
+                    let lane = i * P + pixel;
                     channel.add(f64::from(draw.f.get(lane)), f64::from(draw.h[0].get(lane)));
                 }
             }
