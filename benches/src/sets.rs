@@ -20,11 +20,15 @@ pub const IN_L1: usize = 128;
 /// Draws that make 128 KiB, beyond L1.
 pub const IN_L2: usize = 1024;
 
-/// What `f32` sums may be off by, of each moment's scale: over n = 1024 draws rounding makes √n·2⁻²⁴ = 2e-6,
-/// a little more where the first draw is far from the mean, and n·2⁻²⁴ = 6e-5 at worst.
-const SINGLE: f64 = 1e-5;
-/// The same in `f64`.
-const DOUBLE: f64 = 1e-12;
+/// What each rounding in `f32` may cost, of a moment's scale: unit roundoff (a sum of n terms is off by at most
+/// n of them; Higham 1993), times 4, because squares about the first draw add up to so much more than those
+/// about the mean, times 2, because ours come in two parts, the residual's and the auxiliary's.
+const SINGLE: f64 = 8.0 / (1 << 24) as f64;
+/// The same in `f64`, and 1000 times as much for raw sums, where the mean is large beside the spread.
+const DOUBLE: f64 = 8000.0 / (1_u64 << 53) as f64;
+
+/// A contender passes so often over the draws before its answer is compared for the last time.
+const CHECKED_PASSES: usize = 3;
 
 /// Everything, from sets of `draws` draws.
 pub fn all(draws: usize) -> Vec<Measured> {
@@ -110,10 +114,11 @@ impl<V: Lanes + 'static> Set<V> {
         Self { name, right: Answer::reference(&draws), draws: Rc::new(draws), contenders: Vec::new() }
     }
 
-    /// Adds a contender; panics if its answer is wrong.
-    fn with(mut self, id: &'static str, tolerance: f64, mut contender: impl Contender<Draw<V>> + 'static) -> Self {
+    /// Adds a contender; panics if its answer is off by more than `rounding` for each draw of all passes and two.
+    fn with(mut self, id: &'static str, rounding: f64, mut contender: impl Contender<Draw<V>> + 'static) -> Self {
         let (set, draws) = (self.name, self.draws.clone());
-        for passes in [1, 2] {
+        let tolerance = rounding * (CHECKED_PASSES * draws.len() + 2) as f64;
+        for passes in [1, CHECKED_PASSES - 1] {
             for _ in 0..passes {
                 contender.pass(&draws);
             }
@@ -135,11 +140,11 @@ impl<V: Lanes + 'static> Set<V> {
         self,
         id: &'static str,
         needs: &str,
-        tolerance: f64,
+        rounding: f64,
         contender: Option<impl Contender<Draw<V>> + 'static>,
     ) -> Self {
         match contender {
-            Some(contender) => self.with(id, tolerance, contender),
+            Some(contender) => self.with(id, rounding, contender),
             None => {
                 eprintln!("{}/{id} is left out: it needs {needs}, which this CPU does not offer", self.name);
                 self
@@ -148,14 +153,14 @@ impl<V: Lanes + 'static> Set<V> {
     }
 
     /// Adds our accumulators with ratios in them.
-    fn with_ratios(self, tolerance: f64) -> Self {
+    fn with_ratios(self, rounding: f64) -> Self {
         let none = Integrals::ONE;
-        self.with("ours-ratio-mean", tolerance, Ours::new(RatioMean::default(), ours::ratios))
-            .with("ours-ratio-variance", tolerance, Ours::new(RatioVariance::default(), ours::ratios))
-            .with("ours-hartley-ross", tolerance, Ours::new(HartleyRoss.value(&none), ours::means_and_ratio))
+        self.with("ours-ratio-mean", rounding, Ours::new(RatioMean::default(), ours::ratios))
+            .with("ours-ratio-variance", rounding, Ours::new(RatioVariance::default(), ours::ratios))
+            .with("ours-hartley-ross", rounding, Ours::new(HartleyRoss.value(&none), ours::means_and_ratio))
             .with(
                 "ours-hartley-ross-error-bar",
-                tolerance,
+                rounding,
                 Ours::new(HartleyRoss.error_bar(&none), ours::comoments_and_ratio),
             )
     }
