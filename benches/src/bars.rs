@@ -33,6 +33,9 @@ impl Build {
     }
 }
 
+/// What the ids of those end in that pick the machine's level at run time.
+const DISPATCHED: &str = "-dispatched";
+
 /// How ours must do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Demand {
@@ -70,14 +73,21 @@ pub struct Bar {
     pub rival: &'static str,
     /// What is asked.
     pub demand: Demand,
-    /// Of which builds. Of a dispatched contender it is asked in any.
+    /// Of which builds. Those of AVX2 are asked of a dispatched contender in any.
     pub builds: &'static [Build],
 }
 
 impl Bar {
     /// Whether it is asked of contender `id` in this build.
     pub fn asks(&self, id: &str) -> bool {
-        self.builds.contains(&Build::THIS) || id.ends_with("dispatched")
+        let picks_avx2 = id.ends_with(DISPATCHED) && !self.builds.contains(&Build::Avx512);
+        self.builds.contains(&Build::THIS) || picks_avx2
+    }
+
+    /// Whether it is one of contender `id` of `set` against `rival`. Ours among rivals are made as `id` is.
+    pub fn is_between(&self, set: &str, id: &str, rival: &str) -> bool {
+        let alike = self.rival.ends_with("/ours") && id.ends_with(DISPATCHED);
+        self.set == set && rival.strip_prefix(self.rival) == Some(if alike { DISPATCHED } else { "" })
     }
 }
 
@@ -108,6 +118,15 @@ mod tests {
         assert!(Demand::Within(1.25).met_by(1.24) && !Demand::Within(1.25).met_by(1.26));
         assert!(Demand::Faster(10.0).met_by(0.09) && !Demand::Faster(10.0).met_by(0.11));
         assert!(!Demand::Within(1.25).met_by(f64::NAN) && !Demand::Faster(2.0).met_by(f64::NAN));
+    }
+
+    #[test]
+    fn ours_among_rivals_are_made_alike() {
+        let bar = BARS.iter().find(|bar| bar.rival == "comoments/ours").expect("there is one");
+        assert!(bar.is_between(bar.set, "ours", "comoments/ours"));
+        assert!(bar.is_between(bar.set, "ours-dispatched", "comoments/ours-dispatched"));
+        assert!(!bar.is_between(bar.set, "ours", "comoments/ours-dispatched"));
+        assert!(!bar.is_between(bar.set, "ours-dispatched", "comoments/ours"));
     }
 
     #[test]

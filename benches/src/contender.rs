@@ -18,7 +18,7 @@ pub struct Measured {
     /// What is computed from which draws.
     pub set: &'static str,
     /// Who computes it.
-    pub id: &'static str,
+    pub id: String,
     /// Draws times channels of one pass.
     pub samples: usize,
     pub(crate) pass: Box<dyn FnMut()>,

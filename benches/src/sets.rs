@@ -11,7 +11,7 @@ use crate::kernels::by_hand;
 use crate::kernels::naive::Naive;
 use crate::kernels::ours::{self, Ours};
 use crate::kernels::{average::Average, ndarray_stats::NdarrayStats, statrs::Statrs};
-use ratiocv_core::moments::{Comoments, RatioMean, RatioVariance, Sums};
+use ratiocv_core::moments::{Accumulate, Comoments, Moments, RatioMean, RatioVariance, Sums};
 use ratiocv_core::{Draw, HartleyRoss, Integrals, Lanes, Reads, Spectrum};
 use std::rc::Rc;
 
@@ -41,8 +41,7 @@ pub fn comoments(name: &'static str, draws: usize) -> Vec<Measured> {
     let set = Set::<Spectrum<f32, 16>>::singles(name, draws);
     let (statrs, ndarray_stats) = (Statrs::new(&set.draws), NdarrayStats::new(&set.draws));
     let set = set
-        .with("ours", SINGLE, Ours::new(Comoments::default(), ours::comoments))
-        // "ours-dispatched" comes here: `Ours::fed_by` the function that picks the machine's own level.
+        .with_ours("ours", SINGLE, Comoments::default(), ours::comoments)
         .with("naive", DOUBLE, Naive::default())
         .with("average", DOUBLE, Average::<16, 1>::default())
         .with("statrs", DOUBLE, statrs)
@@ -60,18 +59,17 @@ pub fn comoments(name: &'static str, draws: usize) -> Vec<Measured> {
 /// Five co-moments of one channel and of three, eight pixels in the lanes of a pack.
 pub fn pixels(draws: usize) -> Vec<Measured> {
     let one = Set::<Spectrum<f32, 8>>::singles("pixels-1", draws)
-        .with("ours", SINGLE, Ours::new(Comoments::default(), ours::comoments))
+        .with_ours("ours", SINGLE, Comoments::default(), ours::comoments)
         .with("average", DOUBLE, Average::<1, 8>::default());
     let three = Set::<Spectrum<Spectrum<f32, 8>, 3>>::singles("pixels-3", draws)
-        .with("ours", SINGLE, Ours::new(Comoments::default(), ours::comoments))
+        .with_ours("ours", SINGLE, Comoments::default(), ours::comoments)
         .with("average", DOUBLE, Average::<3, 8>::default());
     one.contenders.into_iter().chain(three.contenders).collect()
 }
 
 /// Means of f and h of 16 channels.
 pub fn sums(draws: usize) -> Vec<Measured> {
-    let set =
-        Set::<Spectrum<f32, 16>>::singles("sums", draws).with("ours", SINGLE, Ours::new(Sums::default(), ours::means));
+    let set = Set::<Spectrum<f32, 16>>::singles("sums", draws).with_ours("ours", SINGLE, Sums::default(), ours::means);
     #[cfg(target_arch = "x86_64")]
     let set = set.with_if("raw-sums", "AVX2", SINGLE, by_hand::RawSums::new());
     set.contenders
@@ -115,7 +113,7 @@ impl<V: Lanes + 'static> Set<V> {
     }
 
     /// Adds a contender; panics if its answer is off by more than `rounding` for each draw of all passes and two.
-    fn with(mut self, id: &'static str, rounding: f64, mut contender: impl Contender<Draw<V>> + 'static) -> Self {
+    fn with(mut self, id: &str, rounding: f64, mut contender: impl Contender<Draw<V>> + 'static) -> Self {
         let (set, draws) = (self.name, self.draws.clone());
         let tolerance = rounding * (CHECKED_PASSES * draws.len() + 2) as f64;
         for passes in [1, CHECKED_PASSES - 1] {
@@ -130,7 +128,7 @@ impl<V: Lanes + 'static> Set<V> {
         }
         let samples = draws.len() * V::LANES;
         let pass = Box::new(move || contender.pass(core::hint::black_box(&**draws)));
-        self.contenders.push(Measured { set, id, samples, pass });
+        self.contenders.push(Measured { set, id: id.into(), samples, pass });
         self
     }
 
@@ -138,7 +136,7 @@ impl<V: Lanes + 'static> Set<V> {
     #[cfg(target_arch = "x86_64")]
     fn with_if(
         self,
-        id: &'static str,
+        id: &str,
         needs: &str,
         rounding: f64,
         contender: Option<impl Contender<Draw<V>> + 'static>,
@@ -152,17 +150,23 @@ impl<V: Lanes + 'static> Set<V> {
         }
     }
 
+    /// Adds one of our accumulators, as this build compiles it and as the machine's level is picked at run time.
+    fn with_ours<M>(self, id: &str, rounding: f64, moments: M, read: fn(&M::Channel, f64) -> Answer) -> Self
+    where
+        M: Accumulate<Draw<V>> + Moments + Copy + 'static,
+        M::Channel: 'static,
+    {
+        let dispatched = Ours::fed_by(moments, ratiocv_simd::add_batch, read);
+        self.with(id, rounding, Ours::new(moments, read)).with(&format!("{id}-dispatched"), rounding, dispatched)
+    }
+
     /// Adds our accumulators with ratios in them.
     fn with_ratios(self, rounding: f64) -> Self {
         let none = Integrals::ONE;
-        self.with("ours-ratio-mean", rounding, Ours::new(RatioMean::default(), ours::ratios))
-            .with("ours-ratio-variance", rounding, Ours::new(RatioVariance::default(), ours::ratios))
-            .with("ours-hartley-ross", rounding, Ours::new(HartleyRoss.value(&none), ours::means_and_ratio))
-            .with(
-                "ours-hartley-ross-error-bar",
-                rounding,
-                Ours::new(HartleyRoss.error_bar(&none), ours::comoments_and_ratio),
-            )
+        self.with_ours("ours-ratio-mean", rounding, RatioMean::default(), ours::ratios)
+            .with_ours("ours-ratio-variance", rounding, RatioVariance::default(), ours::ratios)
+            .with_ours("ours-hartley-ross", rounding, HartleyRoss.value(&none), ours::means_and_ratio)
+            .with_ours("ours-hartley-ross-error-bar", rounding, HartleyRoss.error_bar(&none), ours::comoments_and_ratio)
     }
 }
 

@@ -8,7 +8,7 @@ pub(crate) fn measure(criterion: &mut Criterion, contenders: impl IntoIterator<I
     for mut contender in contenders {
         let mut group = criterion.benchmark_group(contender.set);
         group.throughput(Throughput::Elements(contender.samples as u64));
-        group.bench_function(contender.id, |bencher| bencher.iter(|| contender.pass()));
+        group.bench_function(contender.id.clone(), |bencher| bencher.iter(|| contender.pass()));
         group.finish();
     }
 }

@@ -117,13 +117,13 @@ fn bars(timed: &[Timed]) -> bool {
     let mut all_hold = true;
     for ours in timed.iter().filter(|one| is_ours(one)) {
         let set = ours.contender.set;
-        let bar_of = |rival: &str| BARS.iter().find(|bar| bar.set == set && bar.rival == rival);
+        let bar_of = |rival: &str| BARS.iter().find(|bar| bar.is_between(set, &ours.contender.id, rival));
         let in_set = timed.iter().filter(|one| one.contender.set == set && !is_ours(one));
         let elsewhere = timed.iter().filter(|one| one.contender.set != set && bar_of(&one.contender.name()).is_some());
         for rival in in_set.chain(elsewhere) {
             let name = rival.contender.name();
             let ratio = median_ratio(&ours.seconds, &rival.seconds);
-            let bar = bar_of(&name).filter(|bar| bar.asks(ours.contender.id));
+            let bar = bar_of(&name).filter(|bar| bar.asks(&ours.contender.id));
             let holds = bar.map(|bar| bar.demand.met_by(ratio));
             all_hold &= holds != Some(false);
             let faster = bar.map_or(ratio < 1.0, |bar| matches!(bar.demand, Demand::Faster(_)));

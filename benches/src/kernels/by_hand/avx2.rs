@@ -1,10 +1,9 @@
 //! Five co-moments of 16 channels in AVX2.
 
-use super::state::{Block, Draw16, State};
+use super::state::{BLOCK, Block, Draw16, State};
 use crate::answer::Answer;
 use crate::contender::Contender;
 use core::arch::x86_64::*;
-use ratiocv_core::moments::BLOCK;
 
 /// Lanes of a pack of `f32`.
 const LANES: usize = 8;

@@ -3,6 +3,9 @@
 use crate::answer::Answer;
 use ratiocv_core::{Draw, Spectrum};
 
+/// Draws of a block: as many as of ours, 16 runs.
+pub(super) const BLOCK: usize = 16 * ratiocv_core::moments::BLOCK;
+
 /// 16 channels of `f32`.
 pub(super) type Draw16 = Draw<Spectrum<f32, 16>>;
 
