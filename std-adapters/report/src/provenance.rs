@@ -1,6 +1,7 @@
 //! Where, when and with what a report was made.
 
 use crate::measure::Options;
+use ratiocv_simd::Level;
 use std::time::SystemTime;
 
 /// Where, when and with what a report was made.
@@ -14,6 +15,9 @@ pub struct Provenance {
     pub target: &'static str,
     /// How it was optimised.
     pub profile: &'static str,
+    /// The best instructions of the machine, which the kernels of drivers and of blocks of draws run on; the rest
+    /// has what the build may assume.
+    pub level: String,
     /// The CPU's name, or its architecture where the system does not tell.
     pub cpu: String,
     /// Threads that the replicates ran on; run times are those of one thread.
@@ -40,6 +44,7 @@ impl Provenance {
             compiler: env!("RATIOCV_COMPILER"),
             target: env!("RATIOCV_TARGET"),
             profile: env!("RATIOCV_PROFILE"),
+            level: Level::best().to_string(),
             cpu: cpu(),
             threads,
             date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),

@@ -188,13 +188,14 @@ fn foot(page: &mut String, report: &Report) {
          the estimator's own moments with error bars; medians on one thread, estimators taking turns. Everything but the \
          times is the same to the bit for the same seed and budget, on any number of threads. The numbers are in \
          <code>report.csv</code> and <code>report.json</code>.</p>\n\
-         <p class=\"soft\">ratiocv {}, {}, {}, {}; {}, {} threads; {}; seed {}, budget {} s, defensive weight {}; took \
+         <p class=\"soft\">ratiocv {}, {}, {}, {}; {} ({}), {} threads; {}; seed {}, budget {} s, defensive weight {}; took \
          {:.0} s.</p>\n</body>\n</html>\n",
         from.version,
         escaped(from.compiler),
         from.target,
         from.profile,
         escaped(&from.cpu),
+        from.level,
         from.threads,
         from.date,
         from.seed,

@@ -48,8 +48,9 @@ pub(super) fn table(report: &Report, options: TableOptions) -> String {
     text.push_str(&poor_ones(report, options));
     let _ = writeln!(
         text,
-        "\n{}, {}, {} threads, seed {}, {:.0} s",
+        "\n{}, {}, {}, {} threads, seed {}, {:.0} s",
         report.provenance.cpu,
+        report.provenance.level,
         report.provenance.compiler,
         report.provenance.threads,
         report.provenance.seed,

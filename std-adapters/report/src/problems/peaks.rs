@@ -7,6 +7,7 @@ use rand_core::Rng;
 use ratiocv_core::moments::{Accumulate, BLOCK};
 use ratiocv_core::{Draw, Integrals, Problem, Proposal, Spectrum, WithIntegral, unit_interval};
 use ratiocv_simd::functions::Elementary;
+use ratiocv_simd::{Work, at_best_level};
 
 /// See [`Description`] for what it shows.
 #[derive(Clone, Copy, Debug)]
@@ -89,8 +90,22 @@ impl Blocks {
     /// Not inlined, so that all estimators share it.
     #[inline(never)]
     fn draws<const N: usize, R: Rng + ?Sized>(&self, rng: &mut R) -> [Draw<Channels>; N] {
+        at_best_level(BlockOf { peaks: &self.0, rng })
+    }
+}
+
+/// A block of draws, to be made with the best instructions of the machine.
+struct BlockOf<'a, R: ?Sized, const N: usize> {
+    peaks: &'a PeaksBlock<f64>,
+    rng: &'a mut R,
+}
+
+impl<R: Rng + ?Sized, const N: usize> Work for BlockOf<'_, R, N> {
+    type Output = [Draw<Channels>; N];
+    #[inline(always)]
+    fn run(self) -> Self::Output {
         let (mut f, mut h) = ([[0.0; N]; 3], [[0.0; N]; 3]);
-        self.0.draws(&f64::unit_intervals(rng), &mut f, &mut h);
+        self.peaks.draws(&f64::unit_intervals(self.rng), &mut f, &mut h);
         let channels = |rows: &[[f64; N]; 3], i: usize| Spectrum([rows[0][i], rows[1][i], rows[2][i]]);
         core::array::from_fn(|i| Draw::new(channels(&f, i), channels(&h, i)))
     }
@@ -102,12 +117,17 @@ impl Source for Blocks {
         Integrals::new([Spectrum([1.0; 3])])
     }
     fn accumulate<M: Accumulate<Draw<Channels>>, R: Rng + ?Sized>(&self, moments: &mut M, draws: u64, rng: &mut R) {
-        for _ in 0..draws / BLOCK as u64 {
-            moments.add_batch(&self.draws::<BLOCK, R>(rng));
-        }
-        for _ in 0..draws % BLOCK as u64 {
-            moments.add_batch(&self.draws::<1, R>(rng));
-        }
+        let (mut left, mut block, mut next) = (draws, [Draw::ZERO; BLOCK], BLOCK);
+        moments.add_from(draws, || {
+            if next == BLOCK && left < BLOCK as u64 {
+                return self.draws::<1, R>(rng)[0];
+            }
+            if next == BLOCK {
+                (block, next) = (self.draws(rng), 0);
+            }
+            (left, next) = (left - 1, next + 1);
+            block[next - 1]
+        });
     }
 }
 
