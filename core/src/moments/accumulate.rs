@@ -66,9 +66,9 @@ pub trait AccumulateSlices<V: Lanes>: Accumulate<Draw<V>> {
     fn add_slices(&mut self, f: &[V], h: &[V]) -> Result<(), Error>;
 }
 
-/// As many `h` as `f`.
-pub(crate) fn same_length<V>(f: &[V], h: &[V]) -> Result<(), Error> {
-    if f.len() == h.len() { Ok(()) } else { Err(Error::LengthMismatch { what: "h", expected: f.len(), got: h.len() }) }
+/// An error unless `got` is `expected`.
+pub(crate) fn same_length(what: &'static str, expected: usize, got: usize) -> Result<(), Error> {
+    if got == expected { Ok(()) } else { Err(Error::LengthMismatch { what, expected, got }) }
 }
 
 /// Appends what another accumulator has seen.
@@ -157,7 +157,7 @@ impl<V: Lanes, A: Accumulate<Draw<V::Wide, K>>, const K: usize> Accumulate<Draw<
 
 impl<V: Lanes, A: Accumulate<Draw<V::Wide>>> AccumulateSlices<V> for Widened<V, A> {
     fn add_slices(&mut self, f: &[V], h: &[V]) -> Result<(), Error> {
-        same_length(f, h)?;
+        same_length("h", f.len(), h.len())?;
         let mut draws = f.iter().zip(h);
         self.inner.add_from(f.len() as u64, || draws.next().map_or(Draw::ZERO, |(f, h)| Draw::new(*f, *h).widen()));
         Ok(())

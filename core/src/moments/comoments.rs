@@ -17,7 +17,8 @@
 use crate::draw::Draw;
 use crate::filled::filled;
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes, lanes_beside, larger_first, partials};
+use crate::moments::blocked::Blocked;
+use crate::moments::kernel::{Kernel, State, Takes, lanes_beside, larger_first, partials};
 use crate::moments::range::{magnitude, smallest_square, unless_underflowed};
 use crate::moments::read::{HasComoments, HasMeans, Means, Spread};
 use crate::moments::save;
@@ -161,6 +162,14 @@ fn residual<V: Lanes, const K: usize>(f: V, slope: &[V; K], h: &[V; K]) -> V {
 
 impl<V: Lanes, const K: usize> ComomentsBlock<V, K> {
     #[inline(always)]
+    fn join(&mut self, other: &Self) {
+        self.f = self.f + other.f;
+        for (h, other) in self.h.iter_mut().zip(other.h) {
+            *h = *h + other;
+        }
+        self.squares.add_all(&other.squares);
+    }
+    #[inline(always)]
     fn map<U: Lanes>(&self, change: impl Fn(V) -> U) -> ComomentsBlock<U, K> {
         ComomentsBlock {
             shift: self.shift.map(&change),
@@ -186,14 +195,6 @@ impl<V: Lanes, const K: usize> Kernel for ComomentsBlock<V, K> {
             h: [V::ZERO; K],
             squares: Squares::ZERO,
         }
-    }
-    #[inline(always)]
-    fn fold(&mut self, other: &Self) {
-        self.f = self.f + other.f;
-        for (h, other) in self.h.iter_mut().zip(other.h) {
-            *h = *h + other;
-        }
-        self.squares.add_all(&other.squares);
     }
     #[inline(always)]
     fn close(&self, _: &Self::State, count: u64) -> Self::State {

@@ -2,7 +2,8 @@
 
 use crate::draw::Draw;
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes, lanes_beside, partials};
+use crate::moments::blocked::Blocked;
+use crate::moments::kernel::{Kernel, State, Takes, lanes_beside, partials};
 use crate::moments::read::Tails;
 use crate::moments::save;
 use crate::spectrum::Spectrum;
@@ -68,10 +69,6 @@ impl<V: Lanes> Kernel for ExtremesBlock<V> {
     #[inline(always)]
     fn empty(_: &Self::State) -> Self {
         Self::default()
-    }
-    #[inline(always)]
-    fn fold(&mut self, other: &Self) {
-        self.join(other);
     }
     #[inline(always)]
     fn close(&self, _: &Self::State, _: u64) -> Self::State {

@@ -1,7 +1,8 @@
 //! Two folds of the draws, each with moments of its own.
 
-use crate::moments::blocked::{Blocked, Kernel, State, Takes, add_to_each, kernels_beside};
+use crate::moments::blocked::Blocked;
 use crate::moments::groups::size;
+use crate::moments::kernel::{Kernel, State, Takes, add_to_each, kernels_beside};
 use crate::moments::read::HasFolds;
 use crate::planted::planted;
 

@@ -2,7 +2,8 @@
 
 use crate::draw::Draw;
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes, add_to_each, kernels_beside};
+use crate::moments::blocked::Blocked;
+use crate::moments::kernel::{Kernel, State, Takes, add_to_each, kernels_beside};
 use crate::moments::read::{Group, HasGroups, HasMeans, Means};
 use crate::moments::save;
 use crate::planted::planted;

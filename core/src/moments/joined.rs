@@ -1,7 +1,8 @@
 //! Several kernels in one pass over the draws: one accumulator, one count, one block.
 
-use crate::moments::blocked::{Blocked, Kernel, State, Takes};
+use crate::moments::blocked::Blocked;
 use crate::moments::extremes::MayHaveTails;
+use crate::moments::kernel::{Kernel, State, Takes};
 use crate::moments::read::{
     Group, HasComoments, HasFolds, HasGroups, HasMeans, HasRatioMean, HasThirdMoments, Means, RatioMoments, Spread,
     Tails, ThirdMoments,

@@ -16,9 +16,11 @@ mod extremes;
 mod folds;
 mod groups;
 mod joined;
+mod kernel;
 mod pairs;
 mod range;
 mod read;
+mod run;
 mod save;
 mod slices;
 mod sums;
@@ -26,17 +28,19 @@ mod third;
 mod univariate;
 
 pub use accumulate::{Accumulate, AccumulateSlices, Merge, Moments, Widened};
-pub use blocked::{BLOCK, Blocked, Kernel, State, Takes};
+pub use blocked::Blocked;
 pub use comoments::{Comoments, ComomentsBlock, ComomentsState};
 pub use extremes::{Extremes, ExtremesBlock, ExtremesState, MayHaveTails};
 pub use folds::{Folds, FoldsBlock, FoldsState};
 pub use groups::{Groups, GroupsBlock, GroupsState};
 pub use joined::Joined;
+pub use kernel::{Kernel, State, Takes};
 pub use pairs::{GroupedPairs, Pairs, PairsBlock, PairsState};
 pub use read::{
     Group, HasComoments, HasFolds, HasGroups, HasMeans, HasPairs, HasRatioMean, HasThirdMoments, Means, RatioMoments,
     Spread, Tails, ThirdMoments,
 };
+pub use run::BLOCK;
 pub use save::Save;
 pub use slices::Slices;
 pub use sums::{Sums, SumsBlock, SumsState};

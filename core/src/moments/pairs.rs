@@ -2,8 +2,9 @@
 
 use crate::draw::Draw;
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes, add_to_each, kernels_beside};
+use crate::moments::blocked::Blocked;
 use crate::moments::groups::{GroupsBlock, GroupsState};
+use crate::moments::kernel::{Kernel, State, Takes, add_to_each, kernels_beside};
 use crate::moments::read::{Group, HasGroups, HasPairs};
 
 /// One sample's contributions to `K` integrals that are summed in the end: `0[k]` is the draw of

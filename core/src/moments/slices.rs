@@ -14,8 +14,10 @@ use crate::estimate::ChannelEstimate;
 use crate::estimator::{Estimator, Sample};
 use crate::integrals::Integrals;
 use crate::lanes::{Lanes, Scalar};
-use crate::moments::accumulate::{Accumulate, Merge, Moments};
-use crate::moments::blocked::{BLOCK, Blocked, Kernel, State, Takes, partials};
+use crate::moments::accumulate::{Accumulate, Merge, Moments, same_length};
+use crate::moments::blocked::Blocked;
+use crate::moments::kernel::{Kernel, State, Takes, partials};
+use crate::moments::run::BLOCK;
 use crate::planted::planted;
 use core::fmt;
 use num_traits::float::FloatCore;
@@ -204,11 +206,6 @@ impl<V: Lanes, B: Kernel> Slices<'_, V, B> {
         add_in_order(last, &rows.from(self.channels.saturating_sub(V::LANES)), &mut parts, partials);
         Ok(())
     }
-}
-
-/// An error unless `got` is `expected`.
-fn same_length(what: &'static str, expected: usize, got: usize) -> Result<(), Error> {
-    if got == expected { Ok(()) } else { Err(Error::LengthMismatch { what, expected, got }) }
 }
 
 /// Draws, row by row.

@@ -2,7 +2,8 @@
 
 use crate::draw::Draw;
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes, lanes_beside, larger_first, partials};
+use crate::moments::blocked::Blocked;
+use crate::moments::kernel::{Kernel, State, Takes, lanes_beside, larger_first, partials};
 use crate::moments::read::{HasMeans, Means};
 use crate::moments::save;
 use crate::planted::planted;
@@ -49,6 +50,10 @@ impl<W: Lanes, const K: usize> Default for SumsState<W, K> {
 
 impl<V: Lanes, const K: usize> SumsBlock<V, K> {
     #[inline(always)]
+    fn join(&mut self, other: &Self) {
+        self.sum = self.sum.zip(other.sum, V::add);
+    }
+    #[inline(always)]
     fn map<U: Lanes>(&self, mut change: impl FnMut(V) -> U) -> SumsBlock<U, K> {
         SumsBlock { shift: self.shift.map(&mut change), sum: self.sum.map(change) }
     }
@@ -62,10 +67,6 @@ impl<V: Lanes, const K: usize> Kernel for SumsBlock<V, K> {
     #[inline(always)]
     fn empty(_: &Self::State) -> Self {
         Self { shift: Draw::ZERO, sum: Draw::ZERO }
-    }
-    #[inline(always)]
-    fn fold(&mut self, other: &Self) {
-        self.sum = self.sum.zip(other.sum, V::add);
     }
     #[inline(always)]
     fn close(&self, _: &Self::State, count: u64) -> Self::State {

@@ -2,7 +2,8 @@
 
 use crate::draw::Draw;
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes, lanes_beside, larger_first, partials};
+use crate::moments::blocked::Blocked;
+use crate::moments::kernel::{Kernel, State, Takes, lanes_beside, larger_first, partials};
 use crate::moments::read::{HasThirdMoments, ThirdMoments};
 use crate::moments::save;
 use crate::spectrum::Spectrum;
@@ -87,6 +88,10 @@ impl<W: Lanes> Default for ThirdState<W> {
 
 impl<V: Lanes> ThirdBlock<V> {
     #[inline(always)]
+    fn join(&mut self, other: &Self) {
+        self.sums = self.sums.zip(other.sums, V::add);
+    }
+    #[inline(always)]
     fn map<U: Lanes>(&self, change: impl Fn(V) -> U) -> ThirdBlock<U> {
         ThirdBlock { shift: self.shift.map(&change), sums: self.sums.map(change) }
     }
@@ -100,10 +105,6 @@ impl<V: Lanes> Kernel for ThirdBlock<V> {
     #[inline(always)]
     fn empty(_: &Self::State) -> Self {
         Self { shift: Draw::ZERO, sums: Powers::ZERO }
-    }
-    #[inline(always)]
-    fn fold(&mut self, other: &Self) {
-        self.sums = self.sums.zip(other.sums, V::add);
     }
     /// Moves the sums from the shift to the means: Σ(h − h̄)²(f − f̄) and its kin, expanded.
     #[inline(always)]

@@ -5,7 +5,8 @@ use crate::error::{Error, weight_in_range};
 use crate::filled::filled;
 use crate::integrals::Integrals;
 use crate::lanes::Lanes;
-use crate::moments::blocked::{Blocked, Kernel, State, Takes, larger_first, partials};
+use crate::moments::blocked::Blocked;
+use crate::moments::kernel::{Kernel, State, Takes, lanes_beside, larger_first, partials};
 use crate::moments::range::{magnitude, smallest_square, unless_underflowed};
 use crate::moments::read::{HasMeans, HasRatioMean, Means, RatioMoments, Spread};
 use crate::moments::save;
@@ -186,27 +187,11 @@ impl<Q: Quantity, const S: usize, L: Lanes> UnivariateBlock<Q, S, L> {
 impl<Q: Quantity, const S: usize> Kernel for UnivariateBlock<Q, S> {
     type State = UnivariateState<Q, <Q::Lanes as Lanes>::Wide, S>;
     const PARTIALS: usize = partials(<Q::Lanes as Lanes>::LANES);
-    type Beside<const P: usize> = UnivariateBlock<Q, S, Spectrum<Q::Lanes, P>>;
+    lanes_beside!(UnivariateBlock<Q, S, Spectrum<Q::Lanes, P>>);
 
     #[inline(always)]
     fn empty(state: &Self::State) -> Self {
         Self { quantity: state.quantity, shift: Q::Lanes::ZERO, sum: Q::Lanes::ZERO, squares: [Q::Lanes::ZERO; S] }
-    }
-    #[inline(always)]
-    fn fold(&mut self, other: &Self) {
-        self.join(other);
-    }
-    #[inline(always)]
-    fn beside<const P: usize>(&self) -> Self::Beside<P> {
-        self.map(|lanes| Spectrum([lanes; P]))
-    }
-    #[inline(always)]
-    fn part<const P: usize>(parts: &Self::Beside<P>, part: usize) -> Self {
-        parts.map(|lanes| lanes.0[part])
-    }
-    #[inline(always)]
-    fn fold_beside<const P: usize>(parts: &mut Self::Beside<P>, others: &Self::Beside<P>) {
-        parts.join(others);
     }
     #[inline(always)]
     fn close(&self, _: &Self::State, count: u64) -> Self::State {

@@ -5,6 +5,7 @@
 
 mod avx2;
 mod avx512;
+mod comoments;
 mod divider;
 mod raw_sums;
 mod sse2;
