@@ -1,8 +1,8 @@
 //! Integrals that were estimated themselves (math: N·MSE/F² of a ratio grows by (N/N₂)·C20).
 
 use crate::ladder::{ASYMMETRIC, CORRELATED};
-use ratiocv_core::moments::Comoments;
 use ratiocv_core::moments::ComomentsState;
+use ratiocv_core::moments::{Comoments, HasComoments, Moments};
 use ratiocv_core::{
     ChannelEstimate, Difference, EstimatedIntegrals, Estimator, Flags, Integrals, Plain, RatioOfMeans, Regression,
     RegressionRatio, Tin, Uncertain,
@@ -44,6 +44,25 @@ fn error_bars_grow_by_the_coefficients_share() {
     }
 }
 
+/// Draws that follow h closely are kept as residuals about their slope: the same error bar, from moments
+/// beside which the slope's share of Var(Ĥ) is most of it.
+#[test]
+fn error_bars_grow_alike_about_a_slope() {
+    let draws: Vec<_> = (1..=100).map(|i| (f64::from(2 * i + i % 2) - 0.5, f64::from(i))).collect();
+    let right = {
+        let (f, h) = draws.iter().fold((0.0, 0.0), |(f, h), draw| (f + draw.0 / 100.0, h + draw.1 / 100.0));
+        let ratio = f / h;
+        let squares: f64 = draws.iter().map(|(f, h)| (f - ratio * h).powi(2)).sum();
+        // Ĥ = h̄: the ratio is f̄, its error that of e = f − R̂h and of R̂Ĥ.
+        (squares / 99.0 / 100.0 + (ratio * 0.25).powi(2)).sqrt()
+    };
+    let ours = run(uncertain(RatioOfMeans, 0.25), &draws, 50.5);
+    assert_close(ours.std_error, right, 1e-12, "its error");
+    let moments = filled(Comoments::<f64>::default(), draws.iter().copied());
+    let slope = moments.channel(0).comoments().slope[0];
+    assert!(slope > 1.9, "no slope was taken: {slope}");
+}
+
 /// β̂ = s_xy/(s_xx + N·Var(Ĥ)): for Var(Ĥ) = s_xx/N₂ that is 1/(1 + N/N₂) of what it was.
 #[test]
 fn fitted_coefficients_shrink() {
@@ -68,7 +87,8 @@ fn a_mean_that_is_off_may_be_the_integrals_fault() {
 /// Each channel has the error of its own integral, or all have one.
 #[test]
 fn a_lane_per_channel() {
-    use ratiocv_core::{Draw, Spectrum, moments::Accumulate};
+    use ratiocv_core::moments::Accumulate;
+    use ratiocv_core::{Draw, Spectrum};
     let mut moments = Comoments::<Spectrum<f64, 2>>::default();
     ASYMMETRIC.iter().for_each(|(f, h)| moments.add(Draw::new(Spectrum([*f, *f]), Spectrum([*h, *h]))));
     let integrals = Integrals::new([Spectrum([3.0, 3.0])]);

@@ -228,7 +228,9 @@ fn e8_alpha_one_is_the_ratio_to_the_bit() {
 fn few_draws_close_together_teach_no_slope_to_f32() {
     let golden = |x: f64| (x * 0.618_033_988_749_894_9).fract();
     let draw = |i: u32, channel: u32| {
-        let h = 0.5 + golden(f64::from(i * 7919 + channel));
+        // Slopes of some 0.5/0.005.
+        let near = if i < 4 { 0.02 } else { 1.0 };
+        let h = 0.5 + near * golden(f64::from(i * 7919 + channel));
         let f = h * (1.0 + 0.5 * golden(f64::from(i * 104_729 + 31 * channel) + 0.5));
         (f as f32, h as f32)
     };
@@ -250,6 +252,7 @@ fn few_draws_close_together_teach_no_slope_to_f32() {
             (singly, batch) = (singly.max(error(&one)), batch.max(error(&many)));
         }
         println!("{draws} draws: {singly:e} singly, {batch:e} in a batch");
-        assert!(singly <= 1e-5 && batch <= 1e-5, "{draws} draws: {singly:e} singly, {batch:e} in a batch");
+        // Of 500 fits to four draws one may be beyond doubt (F > 1000) by chance.
+        assert!(singly <= 2e-4 && batch <= 2e-4, "{draws} draws: {singly:e} singly, {batch:e} in a batch");
     }
 }
