@@ -11,7 +11,8 @@ use num_traits::float::FloatCore;
 ///
 /// # Laws
 /// Lane `i` of every result depends on lane `i` of the inputs alone, and equals, to the bit, the
-/// same operation on the scalars of that lane. `from_fn(|i| x.get(i)) == x`.
+/// same operation on the scalars of that lane. `from_fn(|i| x.get(i)) == x`. Lane `i` of pack `p` is lane
+/// `p * Pack::LANES + i`, and `Pack::LANES * PACKS == LANES`.
 ///
 /// # Implementing
 /// Map each operation over the lanes. Never fuse a multiply with an add, never replace a division
@@ -33,12 +34,19 @@ pub trait Lanes:
     type Scalar: Scalar;
     /// The same lanes in `f64`: the state that blocks of draws are merged into.
     type Wide: Lanes<Scalar = f64, Wide = Self::Wide>;
+    /// The lanes that lie side by side in an array of them, as in [`Spectrum`](crate::Spectrum); this type itself
+    /// where there is no array.
+    ///
+    /// Long computations, such as merges, go pack by pack: their intermediate results then stay in registers.
+    type Pack: Lanes<Scalar = Self::Scalar>;
     /// One truth value per lane.
     type Mask: Copy;
     /// One `T` per lane, for results that are not numbers.
     type PerLane<T: Copy + Debug>: PerLane<T>;
     /// The number of channels.
     const LANES: usize;
+    /// The number of packs; 1 if the pack is this type itself.
+    const PACKS: usize;
     /// 0 in every lane.
     const ZERO: Self;
     /// 1 in every lane.
@@ -50,6 +58,10 @@ pub trait Lanes:
     fn from_fn(lane: impl FnMut(usize) -> Self::Scalar) -> Self;
     /// The number in lane `lane`; panics if there is no such lane.
     fn get(&self, lane: usize) -> Self::Scalar;
+    /// Pack `pack`; may panic if there is no such pack.
+    fn pack(&self, pack: usize) -> Self::Pack;
+    /// Pack `pack` becomes `lanes`; may panic if there is no such pack.
+    fn set_pack(&mut self, pack: usize, lanes: Self::Pack);
     /// Exact conversion to `f64` lanes.
     fn widen(self) -> Self::Wide;
     /// Rounds `f64` lanes to this type.
@@ -123,9 +135,11 @@ macro_rules! scalar_lanes {
         impl Lanes for $float {
             type Scalar = Self;
             type Wide = f64;
+            type Pack = Self;
             type Mask = bool;
             type PerLane<T: Copy + Debug> = Single<T>;
             const LANES: usize = 1;
+            const PACKS: usize = 1;
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
 
@@ -140,6 +154,14 @@ macro_rules! scalar_lanes {
             #[inline(always)]
             fn get(&self, lane: usize) -> Self {
                 [*self][lane]
+            }
+            #[inline(always)]
+            fn pack(&self, _: usize) -> Self {
+                *self
+            }
+            #[inline(always)]
+            fn set_pack(&mut self, _: usize, lanes: Self) {
+                *self = lanes;
             }
             #[inline(always)]
             fn widen(self) -> f64 {

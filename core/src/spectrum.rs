@@ -75,9 +75,11 @@ impl<L, const K: usize> IndexMut<usize> for Spectrum<L, K> {
 impl<L: Lanes, const K: usize> Lanes for Spectrum<L, K> {
     type Scalar = L::Scalar;
     type Wide = Spectrum<L::Wide, K>;
+    type Pack = L;
     type Mask = [L::Mask; K];
     type PerLane<T: Copy + core::fmt::Debug> = [L::PerLane<T>; K];
     const LANES: usize = K * L::LANES;
+    const PACKS: usize = K;
     const ZERO: Self = Self([L::ZERO; K]);
     const ONE: Self = Self([L::ONE; K]);
 
@@ -92,6 +94,14 @@ impl<L: Lanes, const K: usize> Lanes for Spectrum<L, K> {
     #[inline(always)]
     fn get(&self, lane: usize) -> L::Scalar {
         self.0[lane / L::LANES].get(lane % L::LANES)
+    }
+    #[inline(always)]
+    fn pack(&self, pack: usize) -> L {
+        self.0[pack]
+    }
+    #[inline(always)]
+    fn set_pack(&mut self, pack: usize, lanes: L) {
+        self.0[pack] = lanes;
     }
     #[inline(always)]
     fn widen(self) -> Self::Wide {
@@ -136,6 +146,10 @@ mod tests {
         assert_eq!(Pixels::LANES, 6);
         assert_eq!(Pixels::from_fn(|i| x.get(i)), x);
         assert_eq!(x[1][1], 3.0);
+        let mut y = x;
+        y.set_pack(2, x.pack(1));
+        assert_eq!((y, y.pack(0).pack(1)), (Pixels::from_fn(|i| [0.0, 1.0, 2.0, 3.0, 2.0, 3.0][i]), 1.0));
+        assert_eq!((Pixels::PACKS, f32::PACKS, 7.0_f64.pack(0)), (3, 1, 7.0));
     }
 
     #[test]

@@ -62,9 +62,11 @@ macro_rules! packs {
         impl Lanes for $pack {
             type Scalar = $float;
             type Wide = $wide;
+            type Pack = Self;
             type Mask = Mask<Self>;
             type PerLane<T: Copy + fmt::Debug> = [Single<T>; $lanes];
             const LANES: usize = $lanes;
+            const PACKS: usize = 1;
             const ZERO: Self = Self::new([0.0; $lanes]);
             const ONE: Self = Self::new([1.0; $lanes]);
 
@@ -79,6 +81,14 @@ macro_rules! packs {
             #[inline(always)]
             fn get(&self, lane: usize) -> $float {
                 self.to_array()[lane]
+            }
+            #[inline(always)]
+            fn pack(&self, _: usize) -> Self {
+                *self
+            }
+            #[inline(always)]
+            fn set_pack(&mut self, _: usize, lanes: Self) {
+                *self = lanes;
             }
             // Through arrays: the compiler finds the converting instructions of whole packs itself.
             #[inline(always)]

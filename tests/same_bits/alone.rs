@@ -32,9 +32,11 @@ impl<S: Scalar, const CHANNELS: usize> Neg for Alone<S, CHANNELS> {
 impl<S: Scalar, const CHANNELS: usize> Lanes for Alone<S, CHANNELS> {
     type Scalar = S;
     type Wide = Alone<f64, CHANNELS>;
+    type Pack = Self;
     type Mask = bool;
     type PerLane<T: Copy + Debug> = Single<T>;
     const LANES: usize = CHANNELS;
+    const PACKS: usize = 1;
     const ZERO: Self = Self(S::ZERO);
     const ONE: Self = Self(S::ONE);
 
@@ -46,6 +48,12 @@ impl<S: Scalar, const CHANNELS: usize> Lanes for Alone<S, CHANNELS> {
     }
     fn get(&self, _: usize) -> S {
         self.0
+    }
+    fn pack(&self, _: usize) -> Self {
+        *self
+    }
+    fn set_pack(&mut self, _: usize, lanes: Self) {
+        *self = lanes;
     }
     fn widen(self) -> Self::Wide {
         Alone(Lanes::widen(self.0))

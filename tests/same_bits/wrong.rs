@@ -70,9 +70,11 @@ impl<const BUG: usize> Neg for Four<BUG> {
 impl<const BUG: usize> Lanes for Four<BUG> {
     type Scalar = f32;
     type Wide = Spectrum<f64, 4>;
+    type Pack = Self;
     type Mask = [bool; 4];
     type PerLane<T: Copy + core::fmt::Debug> = [Single<T>; 4];
     const LANES: usize = 4;
+    const PACKS: usize = 1;
     const ZERO: Self = Self([0.0; 4]);
     const ONE: Self = Self([1.0; 4]);
 
@@ -84,6 +86,12 @@ impl<const BUG: usize> Lanes for Four<BUG> {
     }
     fn get(&self, lane: usize) -> f32 {
         self.0[lane]
+    }
+    fn pack(&self, _: usize) -> Self {
+        *self
+    }
+    fn set_pack(&mut self, _: usize, lanes: Self) {
+        *self = lanes;
     }
     fn widen(self) -> Self::Wide {
         Spectrum(self.0.map(f64::from))

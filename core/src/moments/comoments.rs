@@ -18,7 +18,7 @@ use crate::draw::Draw;
 use crate::filled::filled;
 use crate::lanes::Lanes;
 use crate::moments::blocked::Blocked;
-use crate::moments::kernel::{Kernel, State, Takes, lanes_beside, larger_first, partials};
+use crate::moments::kernel::{Kernel, State, Takes, lanes_beside, partials};
 use crate::moments::range::{magnitude, smallest_square, unless_underflowed};
 use crate::moments::read::{HasComoments, HasMeans, Means, Spread};
 use crate::moments::save;
@@ -245,7 +245,7 @@ impl<V: Lanes, const K: usize> Takes<Draw<V, K>> for ComomentsBlock<V, K> {
     }
 }
 
-impl<W: Lanes<Scalar = f64, Wide = W>, const K: usize> ComomentsState<W, K> {
+impl<W: Lanes<Scalar = f64>, const K: usize> ComomentsState<W, K> {
     /// Σ(f − f̄)(h_k − h̄_k).
     #[inline(always)]
     fn fh(&self, k: usize) -> W {
@@ -296,18 +296,40 @@ impl<W: Lanes<Scalar = f64, Wide = W>, const K: usize> ComomentsState<W, K> {
         self.slope = *slope;
         self
     }
-}
 
-impl<W: Lanes<Scalar = f64, Wide = W>, const K: usize> State for ComomentsState<W, K> {
-    type Channel = ComomentsState<f64, K>;
-
-    /// Pairwise update of Chan, Golub and LeVeque (1983), on residuals about the joint slopes.
+    /// Calls `each` with every number of this state and the one in its place in `other`.
     #[inline(always)]
-    fn merge(&mut self, count: u64, later: &Self, later_count: u64) {
-        let (large, small, fraction) = larger_first(*self, count, *later, later_count);
-        // n_a·(n_b/n), not n_a·n_b/n: the product of two counts overflows u64 from 2^32 on.
-        let weight = planted!("comoments_weight": count.max(later_count) as f64, later_count as f64) * fraction;
-        let (fraction, weight) = (W::splat(fraction), W::splat(weight));
+    fn pair<U>(&mut self, other: &ComomentsState<U, K>, each: impl Fn(&mut W, &U)) {
+        each(&mut self.anchor.f, &other.anchor.f);
+        each(&mut self.f, &other.f);
+        each(&mut self.squares.ee, &other.squares.ee);
+        for k in 0..K {
+            each(&mut self.anchor.h[k], &other.anchor.h[k]);
+            each(&mut self.h[k], &other.h[k]);
+            each(&mut self.slope[k], &other.slope[k]);
+            each(&mut self.squares.eh[k], &other.squares.eh[k]);
+            for j in 0..=k {
+                each(&mut self.squares.hh[k][j], &other.squares.hh[k][j]);
+            }
+        }
+    }
+
+    /// Pairwise update of Chan, Golub and LeVeque (1983), on residuals about the joint slopes, of the larger
+    /// part by the smaller one.
+    #[inline(always)]
+    fn append(&mut self, small: &Self, share: Share) {
+        if W::PACKS > 1 {
+            for pack in 0..W::PACKS {
+                let (mut one, mut other) = (ComomentsState::default(), ComomentsState::default());
+                one.pair(self, |to, lanes: &W| *to = lanes.pack(pack));
+                other.pair(small, |to, lanes: &W| *to = lanes.pack(pack));
+                one.append(&other, share);
+                self.pair(&one, |to, lanes| to.set_pack(pack, *lanes));
+            }
+            return;
+        }
+        let large = *self;
+        let (fraction, weight) = (W::splat(share.fraction), W::splat(share.weight));
         let anchors = small.anchor.zip(large.anchor, W::sub);
         let f = anchors.f + (small.f - large.f);
         let h = filled(W::ZERO, |k| anchors.h[k] + (small.h[k] - large.h[k]));
@@ -318,28 +340,62 @@ impl<W: Lanes<Scalar = f64, Wide = W>, const K: usize> State for ComomentsState<
         let fh = filled(W::ZERO, |k| large.fh(k) + small.fh(k) + f * h[k] * weight);
         let absolute = filled(W::ZERO, |k| large.anchor.h[k] + mean_h[k]);
         let ff = large.ff() + small.ff() + f * f * weight;
-        let slope = Self::fitted_slopes(ff, fh, &joint, absolute, (count + later_count) as f64);
+        let slope = Self::fitted_slopes(ff, fh, &joint, absolute, share.total);
         let (a, b) = (large.with_slopes(&slope), small.with_slopes(&slope));
         let e = residual(f, &slope, &h);
         joint.ee = a.squares.ee + b.squares.ee + e * e * weight;
         joint.eh = filled(W::ZERO, |k| a.squares.eh[k] + b.squares.eh[k] + e * h[k] * weight);
+        let smallest = W::splat(f64::MIN_POSITIVE / f64::EPSILON);
         *self = Self {
             anchor: large.anchor,
             f: large.f + f * fraction,
             h: mean_h,
             slope,
-            squares: joint.unless_underflowed(&slope, e, &h, smallest_square::<W>()),
+            squares: joint.unless_underflowed(&slope, e, &h, smallest),
         };
+    }
+}
+
+/// What a merge needs of the counts of two parts.
+#[derive(Clone, Copy)]
+struct Share {
+    /// The smaller part's fraction of all draws.
+    fraction: f64,
+    /// n_a·n_b/n.
+    weight: f64,
+    /// n.
+    total: f64,
+}
+
+impl Share {
+    fn of(count: u64, later_count: u64) -> Self {
+        let total = (count + later_count) as f64;
+        let fraction = count.min(later_count) as f64 / total;
+        // n_a·(n_b/n), not n_a·n_b/n: the product of two counts overflows u64 from 2^32 on.
+        let weight = planted!("comoments_weight": count.max(later_count) as f64, later_count as f64) * fraction;
+        Self { fraction, weight, total }
+    }
+}
+
+impl<W: Lanes<Scalar = f64, Wide = W>, const K: usize> State for ComomentsState<W, K> {
+    type Channel = ComomentsState<f64, K>;
+
+    #[inline(always)]
+    fn merge(&mut self, count: u64, later: &Self, later_count: u64) {
+        let share = Share::of(count, later_count);
+        if later_count > count {
+            let mut merged = *later;
+            merged.append(self, share);
+            *self = merged;
+        } else {
+            self.append(later, share);
+        }
     }
 
     fn channel(&self, channel: usize) -> ComomentsState<f64, K> {
-        ComomentsState {
-            anchor: self.anchor.map(|lanes| lanes.get(channel)),
-            f: self.f.get(channel),
-            h: self.h.map(|lanes| lanes.get(channel)),
-            slope: self.slope.map(|lanes| lanes.get(channel)),
-            squares: self.squares.map(|lanes| lanes.get(channel)),
-        }
+        let mut one = ComomentsState::default();
+        one.pair(self, |to: &mut f64, lanes| *to = lanes.get(channel));
+        one
     }
     fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
         save::draw(&mut self.anchor, each);
