@@ -3,7 +3,7 @@
 use super::error::Error;
 use super::file::{File, shortened};
 use super::transform;
-use glam::{DAffine3, DVec3, Vec3};
+use glam::{DAffine3, DVec3};
 use roxmltree::Node;
 
 /// An element of a file.
@@ -200,7 +200,7 @@ impl<'a> Element<'a> {
 
     /// A colour: `<rgb>` of three linear numbers or one, or a grey `<float>`. No number is below 0 or above
     /// `most`.
-    pub(super) fn color(self, name: &'static str, most: f32) -> Result<Option<Vec3>, Error> {
+    pub(super) fn color(self, name: &'static str, most: f64) -> Result<Option<DVec3>, Error> {
         let Some(given) = self.parameter(name, &["rgb", "float", "integer", "texture", "spectrum"])? else {
             return Ok(None);
         };
@@ -225,12 +225,11 @@ impl<'a> Element<'a> {
                 shortened(&text)
             )));
         }
-        let color =
-            if given.tag() == "rgb" { given.vector(&text)? } else { DVec3::splat(given.number(&text)?) }.as_vec3();
-        if color.cmplt(Vec3::ZERO).any() {
+        let color = if given.tag() == "rgb" { given.vector(&text)? } else { DVec3::splat(given.number(&text)?) };
+        if color.cmplt(DVec3::ZERO).any() {
             return Err(given.invalid(format!("\"{}\": no channel may be negative", shortened(&text))));
         }
-        if color.cmpgt(Vec3::splat(most)).any() {
+        if color.cmpgt(DVec3::splat(most)).any() {
             return Err(given.invalid(format!("\"{}\": no channel may be above {most}", shortened(&text))));
         }
         Ok(Some(color))

@@ -12,7 +12,7 @@ pub(super) fn area(emitter: Element<'_>) -> Result<Vec3, Error> {
         "constant" | "point" => return Err(emitter.invalid("belongs into <scene>; the emitter of a shape is an area")),
         _ => return Err(emitter.unsupported_type("area")),
     }
-    let radiance = emitter.color("radiance", f32::MAX)?.unwrap_or(Vec3::ONE);
+    let radiance = emitter.color("radiance", f64::MAX)?.unwrap_or(DVec3::ONE).as_vec3();
     emitter.finish()?;
     Ok(radiance)
 }
@@ -33,10 +33,10 @@ pub(super) fn read(scene: Element<'_>) -> Result<Vec<Light>, Error> {
 
 fn light(emitter: Element<'_>) -> Result<Light, Error> {
     let light = match emitter.kind()?.as_str() {
-        "constant" => Light::Environment(emitter.color("radiance", f32::MAX)?.unwrap_or(Vec3::ONE)),
+        "constant" => Light::Environment(emitter.color("radiance", f64::MAX)?.unwrap_or(DVec3::ONE).as_vec3()),
         "point" => Light::Point {
             position: position(emitter)?.as_vec3(),
-            intensity: emitter.color("intensity", f32::MAX)?.unwrap_or(Vec3::ONE),
+            intensity: emitter.color("intensity", f64::MAX)?.unwrap_or(DVec3::ONE).as_vec3(),
         },
         "area" => return Err(emitter.invalid("belongs into a <shape>")),
         _ => return Err(emitter.unsupported_type("point, constant, and area within a shape")),

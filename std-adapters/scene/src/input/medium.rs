@@ -3,7 +3,7 @@
 use super::element::Element;
 use super::error::Error;
 use crate::Medium;
-use glam::Vec3;
+use glam::DVec3;
 
 /// Of a `<medium>`.
 pub(super) fn read(medium: Element<'_>) -> Result<Medium, Error> {
@@ -14,8 +14,8 @@ pub(super) fn read(medium: Element<'_>) -> Result<Medium, Error> {
         return Err(medium.unsupported_type("homogeneous"));
     }
     let scale = medium.float("scale", |scale| (0.0..=1e12).contains(&scale), "from 0 to 1e12")?.unwrap_or(1.0);
-    let extinction = medium.color("sigma_t", 1e12)?.unwrap_or(Vec3::ONE);
-    let albedo = medium.color("albedo", 1.0)?.unwrap_or(Vec3::splat(0.75));
+    let extinction = medium.color("sigma_t", 1e12)?.unwrap_or(DVec3::ONE);
+    let albedo = medium.color("albedo", 1.0)?.unwrap_or(DVec3::splat(0.75));
     if let Some(phase) = medium.object("phase")? {
         if phase.kind()? != "isotropic" {
             return Err(phase.unsupported_type("isotropic"));
@@ -23,5 +23,5 @@ pub(super) fn read(medium: Element<'_>) -> Result<Medium, Error> {
         phase.finish()?;
     }
     medium.finish()?;
-    Ok(Medium { extinction: (extinction.as_dvec3() * scale).as_vec3(), albedo })
+    Ok(Medium { extinction: (extinction * scale).as_vec3(), albedo: albedo.as_vec3() })
 }

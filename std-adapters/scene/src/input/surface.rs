@@ -3,7 +3,7 @@
 use super::element::Element;
 use super::error::Error;
 use crate::{Material, Roughness, Surface};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 const SUPPORTED: &str = "diffuse, twosided, roughconductor, blendbsdf (of three conductors, one per channel), null";
 
@@ -26,10 +26,15 @@ pub(super) fn read(bsdf: Element<'_>) -> Result<Surface, Error> {
 
 fn material(bsdf: Element<'_>) -> Result<Material, Error> {
     let material = match bsdf.kind()?.as_str() {
-        "diffuse" => Material::Diffuse { reflectance: bsdf.color("reflectance", 1.0)?.unwrap_or(Vec3::splat(0.5)) },
+        "diffuse" => {
+            Material::Diffuse { reflectance: bsdf.color("reflectance", 1.0)?.unwrap_or(DVec3::splat(0.5)).as_vec3() }
+        }
         "roughconductor" => {
             let Lobe { roughness, reflectance } = lobe(bsdf, 1.0)?;
-            return Ok(Material::Conductor { roughness: Roughness::Grey(roughness), reflectance });
+            return Ok(Material::Conductor {
+                roughness: Roughness::Grey(roughness),
+                reflectance: reflectance.as_vec3(),
+            });
         }
         "blendbsdf" => return chromatic_conductor(bsdf),
         "null" => Material::Null,
@@ -42,11 +47,11 @@ fn material(bsdf: Element<'_>) -> Result<Material, Error> {
 
 struct Lobe {
     roughness: f32,
-    reflectance: Vec3,
+    reflectance: DVec3,
 }
 
 /// A `roughconductor` whose reflectance stands for Fresnel's term.
-fn lobe(bsdf: Element<'_>, most: f32) -> Result<Lobe, Error> {
+fn lobe(bsdf: Element<'_>, most: f64) -> Result<Lobe, Error> {
     let supported = |name: &str, value: Option<String>, is_right: fn(&str) -> bool, right: &str| match value {
         Some(value) if is_right(&value) => Ok(()),
         _ => Err(bsdf.unsupported(format!("{name} must be {right}; others are not supported"))),
@@ -61,7 +66,7 @@ fn lobe(bsdf: Element<'_>, most: f32) -> Result<Lobe, Error> {
     }
     let is_right = |alpha| (1e-4..=10.0).contains(&alpha);
     let roughness = bsdf.float("alpha", is_right, "from 0.0001 to 10")?.unwrap_or(0.1) as f32;
-    let reflectance = bsdf.color("specular_reflectance", most)?.unwrap_or(Vec3::ONE);
+    let reflectance = bsdf.color("specular_reflectance", most)?.unwrap_or(DVec3::ONE);
     bsdf.finish()?;
     Ok(Lobe { roughness, reflectance })
 }
@@ -81,7 +86,7 @@ fn chromatic_conductor(blend: Element<'_>) -> Result<Material, Error> {
     if parts.len() != 3 || !parts.iter().all(|(_, weight)| (weight - 1.0 / 3.0).abs() <= 1e-5) {
         return Err(blend.unsupported(needed));
     }
-    let (mut roughness, mut reflectance) = (Vec3::NAN, Vec3::ZERO);
+    let (mut roughness, mut reflectance) = (Vec3::NAN, DVec3::ZERO);
     for (part, _) in parts {
         if part.kind()? != "roughconductor" {
             return Err(part.unsupported(needed));
@@ -96,7 +101,7 @@ fn chromatic_conductor(blend: Element<'_>) -> Result<Material, Error> {
         }
         (roughness[j], reflectance[j]) = (lobe.roughness, lobe.reflectance[j] / 3.0);
     }
-    Ok(Material::Conductor { roughness: Roughness::Chromatic(roughness), reflectance })
+    Ok(Material::Conductor { roughness: Roughness::Chromatic(roughness), reflectance: reflectance.as_vec3() })
 }
 
 /// The two parts of a blend: 1 − weight of the first, weight of the second.
