@@ -6,6 +6,7 @@
 
 mod description;
 mod input;
+mod planted;
 
 pub use description::{
     Camera, Description, Filter, Geometry, Light, Material, Medium, Mesh, Roughness, Shape, Surface,

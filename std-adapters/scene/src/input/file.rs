@@ -4,8 +4,8 @@
 use super::Leniency;
 use super::element::Element;
 use super::error::{Error, Warning};
+use core::cell::RefCell;
 use roxmltree::{Document, Node, NodeId, ParsingOptions};
-use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
 
 /// Elements nested deeper than this are no scene.

@@ -3,6 +3,7 @@
 use super::element::Element;
 use super::error::Error;
 use crate::Medium;
+use crate::planted::planted;
 use glam::DVec3;
 
 /// Of a `<medium>`.
@@ -23,5 +24,8 @@ pub(super) fn read(medium: Element<'_>) -> Result<Medium, Error> {
         phase.finish()?;
     }
     medium.finish()?;
-    Ok(Medium { extinction: (extinction * scale).as_vec3(), albedo: albedo.as_vec3() })
+    Ok(Medium {
+        extinction: planted!("medium_scale": extinction * scale, extinction).as_vec3(),
+        albedo: albedo.as_vec3(),
+    })
 }

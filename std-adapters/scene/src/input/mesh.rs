@@ -4,6 +4,7 @@ use super::element::Element;
 use super::error::Error;
 use super::{obj, ply};
 use crate::Mesh;
+use crate::planted::planted;
 use glam::{DAffine3, DVec3, Vec3};
 use std::path::Path;
 
@@ -66,11 +67,11 @@ fn place(mesh: &mut Mesh, to_world: &DAffine3) {
     for position in &mut mesh.positions {
         *position = to_world.transform_point3(position.as_dvec3()).as_vec3();
     }
-    let of_normals = to_world.matrix3.inverse().transpose();
+    let of_normals = planted!("normals_inverse": to_world.matrix3.inverse().transpose(), to_world.matrix3);
     for normal in &mut mesh.normals {
         *normal = (of_normals * normal.as_dvec3()).normalize().as_vec3();
     }
-    if !mesh.normals.is_empty() && to_world.matrix3.determinant() < 0.0 {
+    if !mesh.normals.is_empty() && planted!("mirrored_mesh": to_world.matrix3.determinant() < 0.0, false) {
         mesh.triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
     }
 }
@@ -90,7 +91,8 @@ fn smooth_normals(mesh: &Mesh) -> Result<Vec<Vec3>, String> {
         for k in 0..3 {
             let [at, next, last] = [0, 1, 2].map(|step| mesh.positions[corners[(k + step) % 3] as usize].as_dvec3());
             let cosine = (next - at).normalize().dot((last - at).normalize());
-            sums[corners[k] as usize] += normal * libm::acos(cosine.clamp(-1.0, 1.0));
+            sums[corners[k] as usize] +=
+                normal * planted!("normals_by_angle": libm::acos(cosine.clamp(-1.0, 1.0)), 1.0);
             is_used[corners[k] as usize] = true;
         }
     }

@@ -8,13 +8,7 @@ use tobj::{LoadError, LoadOptions};
 pub(super) fn read(bytes: &[u8]) -> Result<Mesh, String> {
     let text = core::str::from_utf8(bytes).map_err(|error| format!("is not text: {error}"))?;
     check_indices(text)?;
-    let options = LoadOptions {
-        single_index: true,
-        triangulate: true,
-        ignore_points: true,
-        ignore_lines: true,
-        ..LoadOptions::default()
-    };
+    let options = LoadOptions { single_index: true, triangulate: true, ignore_points: true, ignore_lines: true };
     let no_materials = |_: &std::path::Path| Err(LoadError::OpenFileFailed);
     let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, no_materials)
         .map_err(|error| format!("not a good OBJ file: {error}"))?;

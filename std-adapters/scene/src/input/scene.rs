@@ -18,8 +18,6 @@ pub(super) fn read<'a>(file: &'a File<'a>) -> Result<Description, Error> {
     if !matches!(version.split('.').next(), Some("2" | "3")) {
         return Err(scene.unsupported(format!("version {version} is not supported; 2 and 3 are")));
     }
-    let depths = integrator::read(scene)?;
-    let sensor = sensor::read(scene)?;
     // Those that no shape refers to are read too, so that mistakes in them do not stay hidden.
     for bsdf in scene.objects("bsdf")? {
         bsdf.or_leave_out(surface::read(bsdf), "grey of reflectance 0.5 instead")?;
@@ -28,6 +26,8 @@ pub(super) fn read<'a>(file: &'a File<'a>) -> Result<Description, Error> {
     scene.objects("medium")?;
     let lights = emitter::read(scene)?;
     let shapes = shape::read(scene)?;
+    let depths = integrator::read(scene)?;
+    let sensor = sensor::read(scene)?;
     scene.finish()?;
     let description = Description {
         max_depth: depths.longest,

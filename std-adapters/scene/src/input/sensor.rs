@@ -3,6 +3,7 @@
 use super::element::Element;
 use super::error::Error;
 use super::transform::{single, uniform_scale};
+use crate::planted::planted;
 use crate::{Camera, Filter};
 use glam::DAffine3;
 
@@ -49,11 +50,13 @@ fn fov(sensor: Element<'_>, size: [u32; 2]) -> Result<f64, Error> {
     let half = libm::tan(fov.to_radians() / 2.0);
     let half = match axis.as_deref().unwrap_or("x") {
         "x" => return Ok(fov),
-        "y" => half * aspect,
+        "y" => planted!("fov_aspect": half * aspect, half / aspect),
         "smaller" if aspect > 1.0 => half * aspect,
         "larger" if aspect < 1.0 => half * aspect,
         "smaller" | "larger" => return Ok(fov),
-        "diagonal" => half / libm::sqrt(1.0 + 1.0 / (aspect * aspect)),
+        "diagonal" => {
+            planted!("fov_diagonal": half / libm::sqrt(1.0 + 1.0 / (aspect * aspect)), half / libm::sqrt(1.0 + aspect * aspect))
+        }
         other => {
             let what = format!("fov_axis \"{other}\" is unknown; known are x, y, smaller, larger, diagonal");
             return Err(sensor.invalid(what));

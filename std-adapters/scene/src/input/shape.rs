@@ -4,6 +4,7 @@ use super::element::Element;
 use super::error::Error;
 use super::transform::{invertible, single, uniform_scale};
 use super::{emitter, medium, mesh, surface};
+use crate::planted::planted;
 use crate::{Geometry, Material, Shape, Surface};
 use glam::{DAffine3, DVec3, Vec3};
 
@@ -80,11 +81,12 @@ fn sphere(element: Element<'_>, to_world: &DAffine3) -> Result<(Geometry, bool),
     let scale = uniform_scale(to_world)
         .ok_or_else(|| element.unsupported("to_world of a sphere may scale uniformly, rotate and move, no more"))?;
     let center = to_world.transform_point3(element.point("center")?.unwrap_or(DVec3::ZERO)).as_vec3();
-    let radius = element.float("radius", |radius| radius > 0.0, "above 0")?.unwrap_or(1.0) * scale;
+    let radius = element.float("radius", |radius| radius > 0.0, "above 0")?.unwrap_or(1.0)
+        * planted!("sphere_scale": scale, 1.0);
     if !(center.is_finite() && (1e-12..=1e12).contains(&radius)) {
         return Err(element.invalid(format!("its radius {radius:e} must be from 1e-12 to 1e12, and its center finite")));
     }
     // Mitsuba's spheres, unlike its other shapes, turn inside out in a mirror.
-    let is_mirrored = to_world.matrix3.determinant() < 0.0;
+    let is_mirrored = planted!("mirrored_sphere": to_world.matrix3.determinant() < 0.0, false);
     Ok((Geometry::Sphere { center, radius: radius as f32 }, is_mirrored))
 }

@@ -2,6 +2,7 @@
 
 use super::element::Element;
 use super::error::Error;
+use crate::planted::planted;
 use crate::{Material, Roughness, Surface};
 use glam::{DVec3, Vec3};
 
@@ -99,7 +100,7 @@ fn chromatic_conductor(blend: Element<'_>) -> Result<Material, Error> {
         if reflectance[j] > 0.0 {
             return Err(part.unsupported("a second conductor for the same channel"));
         }
-        (roughness[j], reflectance[j]) = (lobe.roughness, lobe.reflectance[j] / 3.0);
+        (roughness[j], reflectance[j]) = (lobe.roughness, lobe.reflectance[j] / planted!("lobe_third": 3.0, 1.0));
     }
     Ok(Material::Conductor { roughness: Roughness::Chromatic(roughness), reflectance: reflectance.as_vec3() })
 }
@@ -110,5 +111,8 @@ fn halves<'a>(blend: Element<'a>) -> Result<[(Element<'a>, f64); 2], Error> {
     let weight = weight.ok_or_else(|| blend.invalid("has no <float name=\"weight\" …>"))?;
     let [first, second] = blend.objects("bsdf")?[..] else { return Err(blend.invalid("must hold two <bsdf>")) };
     blend.finish()?;
-    Ok([(first, 1.0 - weight), (second, weight)])
+    Ok([
+        (first, planted!("blend_order": 1.0 - weight, weight)),
+        (second, planted!("blend_order": weight, 1.0 - weight)),
+    ])
 }

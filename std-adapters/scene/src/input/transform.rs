@@ -2,6 +2,7 @@
 
 use super::element::Element;
 use super::error::Error;
+use crate::planted::planted;
 use glam::{Affine3A, DAffine3, DMat3, DVec3, Vec3};
 
 /// Axes of a transform shorter or longer than this leave nothing of `f32`.
@@ -13,7 +14,8 @@ pub(super) fn read(element: Element<'_>) -> Result<DAffine3, Error> {
     element.only_attributes(&["name"])?;
     let mut whole = DAffine3::IDENTITY;
     for operation in element.children() {
-        whole = read_operation(operation)? * whole;
+        let next = read_operation(operation)?;
+        whole = planted!("transform_order": next * whole, whole * next);
     }
     if !whole.is_finite() {
         return Err(element.invalid("its product is not finite"));
@@ -63,11 +65,13 @@ fn rotate(operation: Element<'_>) -> Result<DAffine3, Error> {
     let axis = triple(operation, Some(0.0))?;
     let angle = operation.number(&operation.required("angle")?)?;
     // Mitsuba does not normalise the axis, and shears with any other.
-    if !((axis.length() - 1.0).abs() <= 1e-4) {
+    if (axis.length() - 1.0).abs() > 1e-4 {
         return Err(operation.invalid(format!("the axis ({}, {}, {}) must have length 1", axis.x, axis.y, axis.z)));
     }
     let (sin, cos) = sine_and_cosine(angle);
-    let column = |e: DVec3| e * cos + axis.cross(e) * sin + axis * (axis.dot(e) * (1.0 - cos));
+    let column = |e: DVec3| {
+        e * cos + planted!("rotation_sense": axis.cross(e), e.cross(axis)) * sin + axis * (axis.dot(e) * (1.0 - cos))
+    };
     Ok(DAffine3::from_mat3(DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))))
 }
 
@@ -91,7 +95,10 @@ fn look_at(operation: Element<'_>) -> Result<DAffine3, Error> {
     let ahead = ahead.ok_or_else(|| operation.invalid("origin and target are the same point"))?;
     let left = up.try_normalize().and_then(|up| Some(up.cross(ahead)).filter(|left| left.length() > 1e-9));
     let left = left.ok_or_else(|| operation.invalid("up must not be 0 or along the direction of view"))?.normalize();
-    Ok(DAffine3::from_mat3_translation(DMat3::from_cols(left, ahead.cross(left), ahead), origin))
+    Ok(DAffine3::from_mat3_translation(
+        planted!("lookat_left": DMat3::from_cols(left, ahead.cross(left), ahead), DMat3::from_cols(-left, ahead.cross(left), ahead)),
+        origin,
+    ))
 }
 
 /// 16 or 9 numbers, row by row.
@@ -102,7 +109,9 @@ fn matrix(operation: Element<'_>) -> Result<DAffine3, Error> {
         9 => {
             let mut all = [0.0; 9];
             all.copy_from_slice(&rows);
-            Ok(DAffine3::from_mat3(DMat3::from_cols_array(&all).transpose()))
+            Ok(DAffine3::from_mat3(
+                planted!("matrix_rows": DMat3::from_cols_array(&all).transpose(), DMat3::from_cols_array(&all)),
+            ))
         }
         16 if rows[12..] == [0.0, 0.0, 0.0, 1.0] => {
             let column = |j: usize| DVec3::new(rows[j], rows[4 + j], rows[8 + j]);

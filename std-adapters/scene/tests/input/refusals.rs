@@ -28,7 +28,12 @@ const BODIES: &[(&str, usize, &str, bool)] = &[
         "<float name=\"foo\">: unknown here; known are to_world, center, radius, emitter, medium, bsdf, flip_normals, visible_to_camera",
         true,
     ),
-    ("<float name='foo' value='1'/>", 2, "unknown here; known are integrator, sensor, bsdf", true),
+    (
+        "<float name='foo' value='1'/>",
+        2,
+        "unknown here; known are bsdf, medium, emitter, shape, integrator, sensor",
+        true,
+    ),
     ("<include filename='other.xml'/>", 2, "<include>: unknown here", true),
     ("<sensor type='perspective'/>", 2, "a second <sensor>; one is supported", true),
     (

@@ -4,6 +4,8 @@ use super::{read, scene};
 use glam::{Affine3A, Vec3};
 use ratiocv_scene::{Geometry, Light};
 
+const HALF: f32 = core::f32::consts::FRAC_1_SQRT_2;
+
 fn to_world(operations: &str) -> Affine3A {
     let body = format!("<shape type='cube'><transform name='to_world'>{operations}</transform></shape>");
     let Geometry::Cube(to_world) = read(&scene(&body)).shapes[0].geometry else { panic!("{operations}") };
@@ -43,7 +45,7 @@ fn each_operation() {
     );
     check(
         "<lookat origin='1,2,3' target='4 5 6' up='0 1 0'/>",
-        [[0.707107, -0.408248, 0.57735, 1.0], [0.0, 0.816497, 0.57735, 2.0], [-0.707107, -0.408248, 0.57735, 3.0]],
+        [[HALF, -0.408248, 0.57735, 1.0], [0.0, 0.816497, 0.57735, 2.0], [-HALF, -0.408248, 0.57735, 3.0]],
     );
     check(
         "<matrix value='1 2 3 4  5 6 7 8  9 10 12 12  0 0 0 1'/>",
