@@ -98,7 +98,11 @@ impl<'a> File<'a> {
             let Some(id) = node.attribute("id") else { continue };
             if let Some(first) = self.ids.insert(id, node) {
                 let (line, _) = self.position(first.range().start);
-                return Err(self.error(node, format!("the id \"{id}\" is that of line {line} already"), false));
+                return Err(self.error(
+                    node,
+                    format!("the id \"{}\" is that of line {line} already", shortened(id)),
+                    false,
+                ));
             }
         }
         Ok(())
@@ -155,8 +159,9 @@ impl<'a> File<'a> {
         let Some(mut at) = open.keys().min().and_then(|id| self.tree.get_node(NodeId::new(*id))) else { return Ok(()) };
         // Follow what is left until it comes round.
         let mut trail: Vec<Node<'a, 'a>> = Vec::new();
+        let mut steps: HashMap<u32, usize> = HashMap::new();
         let start = loop {
-            if let Some(start) = trail.iter().position(|node| *node == at) {
+            if let Some(start) = steps.insert(at.id().get(), trail.len()) {
                 break start;
             }
             trail.push(at);
@@ -165,7 +170,11 @@ impl<'a> File<'a> {
             };
             at = *next;
         };
-        let names: Vec<&str> = trail[start..].iter().chain([&at]).filter_map(|node| node.attribute("id")).collect();
+        let mut names: Vec<String> =
+            trail[start..].iter().chain([&at]).filter_map(|node| node.attribute("id")).map(shortened).collect();
+        if names.len() > 8 {
+            names.splice(4..names.len() - 4, ["…".to_owned()]);
+        }
         Err(self.error(at, format!("references go in a circle: {}", names.join(" -> ")), false))
     }
 
@@ -173,7 +182,9 @@ impl<'a> File<'a> {
     pub(super) fn target(&self, reference: Node<'a, 'a>) -> Result<Node<'a, 'a>, Error> {
         let id = reference.attribute("id").unwrap_or_default();
         let found = self.ids.get(id).copied();
-        found.ok_or_else(|| self.error(reference, format!("there is no element with the id \"{id}\""), false))
+        found.ok_or_else(|| {
+            self.error(reference, format!("there is no element with the id \"{}\"", shortened(id)), false)
+        })
     }
 
     /// `text` with every `$name` replaced by the `<default>` of that name, which must stand before `node`.

@@ -419,3 +419,10 @@ fn a_file_that_is_not_there_or_not_text() {
     std::fs::write(&path, format!("<scene version='3.0.0'>{SENSOR}{LIGHT}</scene>")).unwrap();
     assert!(Description::read(&path, Leniency::Strict).is_ok());
 }
+
+#[test]
+fn a_large_circle_is_found_at_once_and_told_in_short() {
+    let link = |i: usize| format!("<bsdf type='twosided' id='b{i}'><ref id='b{}'/></bsdf>", (i + 1) % 100_000);
+    let error = error(&scene(&(0..100_000).map(link).collect::<String>()));
+    assert!(error.to_string().contains("b3 -> … -> b99997"), "{error}");
+}
