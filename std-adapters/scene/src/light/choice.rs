@@ -1,0 +1,217 @@
+//! Which light to sample: one probability per channel, and the one that is used.
+
+use crate::colour::Colour;
+use crate::light::Emitter;
+use crate::planted::planted;
+use glam::Vec3;
+
+/// How likely each channel, left alone, would choose a light.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LightChoice {
+    /// All alike, whatever their colours: no auxiliary.
+    Uniform,
+    /// By the power in the channel.
+    Power,
+    /// By what the channel receives where the light is sampled from: power × cosines / squared distance,
+    /// unoccluded.
+    #[default]
+    Local,
+}
+
+/// The choice that is made for all channels, as a mixture of theirs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mixture {
+    /// By the luminance of the channels' weights.
+    Luminance,
+    /// By the root of the sum of their squares.
+    #[default]
+    L2,
+    /// The mean of the channels' own probabilities.
+    Uniform,
+}
+
+/// Something that is sampled directly.
+#[derive(Clone, Debug)]
+pub(crate) struct Light<C> {
+    pub(crate) emitter: Emitter,
+    /// The number of its shape.
+    pub(crate) shape: u32,
+    /// Radiance; radiant intensity of a point.
+    pub(crate) radiance: C,
+    /// What the choice of each channel is proportional to, but for the place.
+    weight: C,
+    /// The same for the choice that is made.
+    importance: f32,
+    center: Vec3,
+    radius: f32,
+    plane: Option<Vec3>,
+}
+
+/// What cosine a place has for light.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Facing {
+    /// None: a place in a medium.
+    Any,
+    /// The surface scatters what comes from above, by some law of its own.
+    Above(Vec3),
+    /// The surface scatters in proportion to the cosine.
+    Cosine(Vec3),
+}
+
+impl<C: Colour> Light<C> {
+    /// Cosines over squared distance, of the middle; 0 only if all of it is below the horizon or turned away.
+    #[inline(always)]
+    fn seen_from(&self, at: Vec3, facing: Facing) -> f32 {
+        let to = self.center - at;
+        let square = to.dot(to);
+        let inverse = 1.0 / square.sqrt();
+        let mut seen = 1.0 / square.max(self.radius * self.radius);
+        if let Some(normal) = self.plane {
+            seen *= (-normal.dot(to) * inverse).max(0.0);
+        }
+        // Above the horizon is what is seen of a sphere whose sine is s if cos > −s, all of it if cos ≥ s.
+        let s = self.radius * inverse;
+        let cosine = |normal: Vec3| normal.dot(to) * inverse;
+        match facing {
+            Facing::Any => seen,
+            Facing::Above(normal) => {
+                if cosine(normal) > -s {
+                    seen
+                } else {
+                    0.0
+                }
+            }
+            Facing::Cosine(normal) => {
+                let cos = cosine(normal);
+                let partly = (cos + s) * (cos + s) * 0.25 / s;
+                seen * if cos >= s {
+                    cos
+                } else if cos > -s {
+                    partly
+                } else {
+                    0.0
+                }
+            }
+        }
+    }
+}
+
+/// All lights that are sampled directly.
+#[derive(Debug)]
+pub(crate) struct Lights<C> {
+    pub(crate) lights: Vec<Light<C>>,
+    choice: LightChoice,
+    mixture: Mixture,
+}
+
+/// The weights at the last vertex, so that what is hit from there knows how likely it was to be sampled.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Weights {
+    seen: Vec<f32>,
+    weights: Vec<f32>,
+    total: f32,
+}
+
+impl Weights {
+    pub(crate) fn new(lights: usize) -> Self {
+        Self { seen: vec![1.0; lights], weights: vec![1.0; lights], total: lights as f32 }
+    }
+
+    /// The probability of `light`, as it was at the last choice.
+    #[inline(always)]
+    pub(crate) fn probability(&self, light: usize) -> f32 {
+        self.weights[light] / self.total
+    }
+}
+
+/// A light that was chosen.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Chosen<C> {
+    pub(crate) light: usize,
+    pub(crate) probability: f32,
+    /// p_j/p: how much likelier each channel was to choose it. 1 without auxiliary.
+    pub(crate) h: C,
+}
+
+impl<C: Colour> Lights<C> {
+    pub(crate) const fn new(choice: LightChoice, mixture: Mixture) -> Self {
+        Self { lights: Vec::new(), choice, mixture }
+    }
+
+    /// Adds a light; `shape` is the number of its shape.
+    pub(crate) fn push(&mut self, emitter: Emitter, shape: u32, radiance: C) {
+        let size = match self.choice {
+            LightChoice::Uniform => 0.0,
+            LightChoice::Power => emitter.seen_area() * emitter.power(),
+            LightChoice::Local => emitter.seen_area(),
+        };
+        let weight = if self.choice == LightChoice::Uniform { C::ONE } else { radiance.times(size) };
+        let importance = match self.mixture {
+            Mixture::Luminance => weight.luminance(),
+            Mixture::L2 => (weight * weight).sum().sqrt(),
+            Mixture::Uniform => 1.0,
+        };
+        let ((center, radius), plane) = (emitter.bound(), emitter.plane());
+        self.lights.push(Light { emitter, shape, radiance, weight, importance, center, radius, plane });
+    }
+
+    /// Chooses a light for a vertex; `None` if no light reaches it.
+    #[inline(always)]
+    pub(crate) fn choose<const AUXILIARY: bool>(
+        &self,
+        (at, facing): (Vec3, Facing),
+        u: f32,
+        weights: &mut Weights,
+    ) -> Option<Chosen<C>> {
+        if self.lights.len() == 1 {
+            return Some(Chosen { light: 0, probability: 1.0, h: C::ONE });
+        }
+        // The channels' own sums are needed for p_j, and for their mean.
+        let by_channel = AUXILIARY || self.mixture == Mixture::Uniform;
+        let mut totals = C::ZERO;
+        let mut total = 0.0;
+        for ((light, seen), weight) in self.lights.iter().zip(&mut weights.seen).zip(&mut weights.weights) {
+            if self.choice == LightChoice::Local {
+                *seen = light.seen_from(at, facing);
+            }
+            *weight = light.importance * *seen;
+            total += *weight;
+            if by_channel {
+                totals = totals + light.weight.times(*seen);
+            }
+        }
+        let inverse_totals = totals.map(|sum| if sum > 0.0 { 1.0 / sum } else { 0.0 });
+        if self.mixture == Mixture::Uniform {
+            total = 0.0;
+            for ((light, seen), weight) in self.lights.iter().zip(&weights.seen).zip(&mut weights.weights) {
+                *weight = (light.weight * inverse_totals).sum() * seen;
+                total += *weight;
+            }
+        }
+        weights.total = total;
+        if !(total > 0.0) {
+            return None;
+        }
+        let mut place = u * total;
+        let mut chosen = 0;
+        for (light, weight) in weights.weights.iter().enumerate() {
+            if *weight > 0.0 {
+                chosen = light;
+                if place < *weight {
+                    break;
+                }
+                place -= *weight;
+            }
+        }
+        let probability = weights.probability(chosen);
+        let h = if AUXILIARY {
+            let own = (self.lights[chosen].weight * inverse_totals).times(weights.seen[chosen] / probability);
+            // A channel without light has no preference.
+            let own = planted!("light_choice_not_normalised": own, own * totals);
+            C::select(C::ZERO.lt(totals), own, C::ONE)
+        } else {
+            C::ONE
+        };
+        Some(Chosen { light: chosen, probability, h })
+    }
+}

@@ -1,0 +1,193 @@
+//! What light comes from, sampled from a point.
+
+use crate::frame::{Frame, turn};
+use crate::geometry::{Cube, Rectangle, Solid, Sphere, Triangle};
+use core::f32::consts::PI;
+use glam::Vec3;
+
+/// The shape of a light.
+#[derive(Clone, Debug)]
+pub(crate) enum Emitter {
+    Sphere(Sphere),
+    Rectangle {
+        rectangle: Rectangle,
+        area: f32,
+    },
+    Cube {
+        cube: Cube,
+        area: f32,
+    },
+    /// Triangles with the area up to each of them.
+    Mesh {
+        triangles: Vec<Triangle>,
+        areas: Vec<f32>,
+    },
+    Point(Vec3),
+}
+
+/// A direction to a light.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Towards {
+    pub(crate) direction: Vec3,
+    pub(crate) distance: f32,
+    /// 1 over the density per solid angle; of a point, 1 over its squared distance.
+    pub(crate) inverse_pdf: f32,
+}
+
+impl Towards {
+    /// A point that was chosen uniformly over `area`; `None` if it shows `from` its back.
+    #[inline(always)]
+    fn to_area(from: Vec3, (position, normal): (Vec3, Vec3), area: f32) -> Option<Self> {
+        let to = position - from;
+        let square = to.dot(to);
+        let distance = square.sqrt();
+        let direction = to / distance;
+        let cos = -normal.dot(direction);
+        (cos > 0.0 && distance > 0.0).then_some(Self { direction, distance, inverse_pdf: cos * area / square })
+    }
+}
+
+impl Emitter {
+    /// Of a shape that was put into a geometry as number `shape`, with its triangles.
+    pub(crate) fn new(solid: Solid, shape: u32, triangles: &[Triangle]) -> Self {
+        match solid {
+            Solid::Sphere(sphere) => Self::Sphere(sphere),
+            Solid::Rectangle(rectangle) => Self::Rectangle { area: rectangle.area(), rectangle },
+            Solid::Cube(cube) => Self::Cube { area: cube.area(), cube },
+            Solid::Mesh => {
+                let triangles: Vec<_> = triangles.iter().filter(|triangle| triangle.shape == shape).copied().collect();
+                let mut sum = 0.0;
+                let areas = triangles.iter().map(|triangle| {
+                    sum += triangle.area();
+                    sum
+                });
+                Self::Mesh { areas: areas.collect(), triangles }
+            }
+        }
+    }
+
+    /// The area that is seen, on average over the directions that see any; 1 for a point.
+    pub(crate) fn seen_area(&self) -> f32 {
+        match self {
+            Self::Sphere(sphere) => PI * sphere.radius * sphere.radius,
+            Self::Rectangle { area, .. } => *area,
+            Self::Cube { area, .. } => area / 4.0,
+            Self::Mesh { areas, .. } => areas.last().copied().unwrap_or(0.0) / 4.0,
+            Self::Point(_) => 1.0,
+        }
+    }
+
+    /// Power over radiance (over intensity, of a point) and [`seen_area`](Self::seen_area).
+    pub(crate) fn power(&self) -> f32 {
+        if let Self::Rectangle { .. } = self { PI } else { 4.0 * PI }
+    }
+
+    /// A sphere about all of it.
+    pub(crate) fn bound(&self) -> (Vec3, f32) {
+        match self {
+            Self::Sphere(sphere) => (sphere.center, sphere.radius),
+            Self::Rectangle { rectangle, .. } => {
+                let [u, v] = rectangle.edges;
+                (rectangle.center, (u + v).length().max((u - v).length()))
+            }
+            Self::Cube { cube, .. } => cube.bound(),
+            Self::Mesh { triangles, .. } => {
+                let corners = || triangles.iter().flat_map(Triangle::corners);
+                let lowest = corners().fold(Vec3::MAX, Vec3::min);
+                let center = (lowest + corners().fold(Vec3::MIN, Vec3::max)) * 0.5;
+                (center, corners().map(|corner| (corner - center).length()).fold(0.0, f32::max))
+            }
+            Self::Point(position) => (*position, 0.0),
+        }
+    }
+
+    /// The normal of its plane, if it has one: it is dark behind it.
+    pub(crate) fn plane(&self) -> Option<Vec3> {
+        if let Self::Rectangle { rectangle, .. } = self { Some(rectangle.normal) } else { None }
+    }
+
+    pub(crate) const fn is_point(&self) -> bool {
+        matches!(self, Self::Point(_))
+    }
+
+    /// Whether it can hide parts of itself.
+    pub(crate) const fn hides_itself(&self) -> bool {
+        matches!(self, Self::Mesh { .. })
+    }
+
+    /// A direction to it from `from`; `None`: it shows its
+    /// back. Spheres are sampled by the cone in which they are seen, from the inside and on them by area; the
+    /// others by area.
+    #[inline(always)]
+    pub(crate) fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<Towards> {
+        match self {
+            Self::Sphere(sphere) => Self::sample_sphere(sphere, from, u),
+            Self::Rectangle { rectangle, area } => {
+                Towards::to_area(from, (rectangle.sample(u), rectangle.normal), *area)
+            }
+            Self::Cube { cube, area } => Towards::to_area(from, cube.sample(u), *area),
+            Self::Mesh { triangles, areas } => Self::sample_mesh(triangles, areas, from, u),
+            Self::Point(position) => {
+                let to = *position - from;
+                let square = to.dot(to);
+                let distance = square.sqrt();
+                (distance > 0.0).then(|| Towards { direction: to / distance, distance, inverse_pdf: 1.0 / square })
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn sample_sphere(sphere: &Sphere, from: Vec3, [u, v]: [f32; 2]) -> Option<Towards> {
+        let to_center = sphere.center - from;
+        let square = to_center.dot(to_center);
+        if sphere.side < 0.0 {
+            // By area: from a point of the sphere itself, cos·cos/distance² is the same everywhere.
+            let outward = crate::frame::uniform_direction([u, v]);
+            let area = 4.0 * PI * sphere.radius * sphere.radius;
+            return Towards::to_area(from, (sphere.center + outward * sphere.radius, -outward), area);
+        }
+        let cap = cone(sphere.radius, square)?;
+        // 1 − cos, which keeps its digits in a narrow cone.
+        let versine = u * cap;
+        let sin2 = versine * (2.0 - versine);
+        let (sin, cos) = (sin2.sqrt(), 1.0 - versine);
+        let [x, y] = turn(v);
+        let distance = square.sqrt();
+        let direction = Frame::about(to_center / distance).to_world(Vec3::new(sin * x, sin * y, cos));
+        let half_chord = (sphere.radius * sphere.radius - square * sin2).max(0.0).sqrt();
+        Some(Towards { direction, distance: distance * cos - half_chord, inverse_pdf: 2.0 * PI * cap })
+    }
+
+    fn sample_mesh(triangles: &[Triangle], areas: &[f32], from: Vec3, [u, v]: [f32; 2]) -> Option<Towards> {
+        let area = *areas.last()?;
+        let place = u * area;
+        let i = areas.partition_point(|end| *end <= place).min(areas.len() - 1);
+        let before = if i == 0 { 0.0 } else { areas[i - 1] };
+        let u = ((place - before) / (areas[i] - before)).clamp(0.0, 1.0);
+        Towards::to_area(from, triangles[i].sample([u, v]), area)
+    }
+
+    /// 1 over the density with which [`sample`](Self::sample) chooses the direction of a point of it at
+    /// `distance` where its normal's cosine is `cos` > 0. Of a point light infinite: it is never met.
+    #[inline(always)]
+    pub(crate) fn inverse_pdf(&self, from: Vec3, distance: f32, cos: f32) -> f32 {
+        let by_area = |area: f32| cos * area / (distance * distance);
+        match self {
+            Self::Sphere(sphere) if sphere.side < 0.0 => by_area(4.0 * PI * sphere.radius * sphere.radius),
+            Self::Sphere(sphere) => {
+                let to_center = sphere.center - from;
+                cone(sphere.radius, to_center.dot(to_center)).map_or(f32::INFINITY, |cap| 2.0 * PI * cap)
+            }
+            Self::Rectangle { area, .. } | Self::Cube { area, .. } => by_area(*area),
+            Self::Mesh { areas, .. } => by_area(areas.last().copied().unwrap_or(0.0)),
+            Self::Point(_) => f32::INFINITY,
+        }
+    }
+}
+
+/// 1 − cos of the cone in which a sphere is seen; `None` from inside.
+#[inline(always)]
+fn cone(radius: f32, square: f32) -> Option<f32> {
+    let sin2 = radius * radius / square;
+    (sin2 < 1.0).then(|| sin2 / (1.0 + (1.0 - sin2).sqrt()))
+}

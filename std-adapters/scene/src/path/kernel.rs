@@ -1,0 +1,308 @@
+//! One path after another: a backward walk from the camera, with a pair (f, h) per depth and technique.
+//!
+//! Everything whose sampling depends on the channel is sampled by one channel, drawn once per path. With P_j the
+//! density with which channel j would have taken the path so far, the density that is divided by is their mean
+//! M = ΣP_c/3, and h_j = P_j/M ≤ 3. So the next event, of densities p_j, is divided by m = Σ(h_c/3)p_c, and h_j
+//! becomes h_j·p_j/m: spectral multiple importance sampling (Wilkie et al. 2014) in running form.
+
+use crate::Scene;
+use crate::colour::Colour;
+use crate::frame::{Frame, cosine_direction, uniform_direction};
+use crate::geometry::{NONE, Point};
+use crate::light::Facing;
+use crate::material::Lobes;
+use crate::medium::{pass, transmittance};
+use crate::path::Samples;
+use crate::path::record::Record;
+use crate::planted::planted;
+use crate::random::Random;
+use core::f32::consts::FRAC_1_PI;
+use glam::Vec3;
+use ratiocv_simd::Work;
+
+/// What to trace.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Block {
+    pub(crate) pixel: [u32; 2],
+    pub(crate) block: u64,
+    pub(crate) count: usize,
+    pub(crate) seed: u64,
+}
+
+/// The paths of a block, in a kernel that has what the scene needs.
+pub(super) struct Paths<
+    'a,
+    C,
+    const AUXILIARY: bool,
+    const MEDIA: bool,
+    const CONDUCTORS: bool,
+    const LIGHTS: bool,
+    const SCATTERING: bool,
+> {
+    pub(super) scene: &'a Scene<C>,
+    pub(super) block: Block,
+    pub(super) samples: &'a mut Samples<C>,
+}
+
+impl<
+    C: Colour,
+    const AUXILIARY: bool,
+    const MEDIA: bool,
+    const CONDUCTORS: bool,
+    const LIGHTS: bool,
+    const SCATTERING: bool,
+> Work for Paths<'_, C, AUXILIARY, MEDIA, CONDUCTORS, LIGHTS, SCATTERING>
+{
+    type Output = ();
+    #[inline(always)]
+    fn run(mut self) {
+        let Block { pixel, block, count, seed } = self.block;
+        let mut random = Random::new(seed, pixel, block);
+        self.samples.count = count;
+        for sample in 0..count {
+            self.samples.plain[sample] = self.path(sample, &mut random);
+        }
+    }
+}
+
+/// What scatters light at a vertex.
+struct Vertex<C> {
+    point: Point,
+    /// Where the ray came from.
+    wi: Vec3,
+    law: Law,
+    lobes: Lobes<C>,
+    /// About the shading normal, on the side of the ray.
+    frame: Frame,
+    normal: Vec3,
+    shading: Vec3,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Law {
+    Diffuse,
+    Conductor,
+    Isotropic,
+}
+
+/// f·cos and the densities of a direction: f·cos is `over_density`·`density`, channel by channel.
+struct Scattered<C> {
+    over_density: C,
+    density: C,
+}
+
+impl<C: Colour> Vertex<C> {
+    /// Of a direction from it; `None` below the horizon.
+    #[inline(always)]
+    fn scattered<const CONDUCTORS: bool, const MEDIA: bool>(&self, wo: Vec3) -> Option<Scattered<C>> {
+        if MEDIA && self.law == Law::Isotropic {
+            return Some(Scattered { over_density: C::ONE, density: C::splat(0.25 * FRAC_1_PI) });
+        }
+        let cos = self.shading.dot(wo);
+        if !(cos > 0.0 && self.normal.dot(wo) > 0.0) {
+            return None;
+        }
+        Some(if CONDUCTORS && self.law == Law::Conductor {
+            let [wi, wo] = [self.frame.to_local(self.wi), self.frame.to_local(wo)];
+            Scattered { over_density: self.lobes.over_density(wo), density: self.lobes.density(wi, wo) }
+        } else {
+            Scattered { over_density: self.lobes.reflectance, density: C::splat(cos * FRAC_1_PI) }
+        })
+    }
+
+    /// A direction by channel `channel`'s density; `over_density` is 0 below the horizon.
+    #[inline(always)]
+    fn sample<const CONDUCTORS: bool, const MEDIA: bool>(
+        &self,
+        channel: usize,
+        random: &mut Random,
+    ) -> (Vec3, Scattered<C>) {
+        let u = random.uniforms();
+        if MEDIA && self.law == Law::Isotropic {
+            let density = C::splat(0.25 * FRAC_1_PI);
+            return (uniform_direction(u), Scattered { over_density: C::ONE, density });
+        }
+        let (local, over_density, density) = if CONDUCTORS && self.law == Law::Conductor {
+            let (wo, density) = self.lobes.sample(channel, self.frame.to_local(self.wi), u);
+            (wo, self.lobes.over_density(wo), density)
+        } else {
+            let wo = cosine_direction(u);
+            (wo, self.lobes.reflectance, C::splat(wo.z * FRAC_1_PI))
+        };
+        let wo = self.frame.to_world(local);
+        let above = local.z > 0.0 && self.normal.dot(wo) > 0.0;
+        (wo, Scattered { over_density: if above { over_density } else { C::ZERO }, density })
+    }
+
+    #[inline(always)]
+    fn facing<const CONDUCTORS: bool, const MEDIA: bool>(&self) -> Facing {
+        match self.law {
+            Law::Isotropic if MEDIA => Facing::Any,
+            Law::Conductor if CONDUCTORS => Facing::Above(self.shading),
+            _ => Facing::Cosine(self.shading),
+        }
+    }
+}
+
+impl<
+    C: Colour,
+    const AUXILIARY: bool,
+    const MEDIA: bool,
+    const CONDUCTORS: bool,
+    const LIGHTS: bool,
+    const SCATTERING: bool,
+> Paths<'_, C, AUXILIARY, MEDIA, CONDUCTORS, LIGHTS, SCATTERING>
+{
+    /// Traces sample number `sample`; what is not in pairs is returned.
+    #[inline(always)]
+    fn path(&mut self, sample: usize, random: &mut Random) -> C {
+        let Self { scene, block, samples } = self;
+        let Samples { pairs, weights, .. } = &mut **samples;
+        let mut record = Record::<C, AUXILIARY>::new(&scene.terms, pairs, sample);
+        let mut ray = scene.camera.ray(block.pixel, random);
+        let mut hit = scene.geometry.seen_by_camera(&ray);
+        let channel = if C::LANES > 1 && (MEDIA || CONDUCTORS) { random.below(C::LANES) } else { 0 };
+        // f of the path so far over its density M, and P_j/M.
+        let mut throughput = C::ONE;
+        let mut h = C::ONE;
+        // The density of the ray's direction, given what came before.
+        let mut density = 0.0;
+        let mut depth = 1;
+        loop {
+            let mut scattered_at = f32::INFINITY;
+            if MEDIA {
+                let passage = pass(&scene.media, &ray, hit.t, channel, random);
+                let mean = (h * passage.density).mean();
+                if !(mean > 0.0) {
+                    break;
+                }
+                let ratio = passage.density.times(1.0 / mean);
+                throughput = throughput * passage.over_density * ratio;
+                h = h * ratio;
+                scattered_at = passage.t;
+            }
+            let in_medium = MEDIA && scattered_at.is_finite();
+            let mut found = None;
+            if !in_medium && hit.shape != NONE {
+                found = Some((scene.geometry.point(&ray, hit), &scene.surfaces[hit.shape as usize]));
+            }
+            if SCATTERING || depth == 1 {
+                let mut radiance = C::ZERO;
+                let mut weight = 1.0;
+                match &found {
+                    Some((point, surface)) => {
+                        let cos = -point.normal.dot(ray.direction);
+                        if surface.light != NONE && cos > 0.0 {
+                            radiance = surface.emission;
+                            if LIGHTS && depth > 1 {
+                                let light = surface.light as usize;
+                                let inverse = scene.lights.lights[light].emitter.inverse_pdf(ray.origin, hit.t, cos);
+                                // Balance: m/(m + p).
+                                weight = 1.0 / (1.0 + weights.probability(light) / (inverse * density));
+                            }
+                        }
+                    }
+                    None if !in_medium => radiance = scene.environment,
+                    None => {}
+                }
+                let h = planted!("weight_on_h": h, h.times(weight));
+                record.scattering(depth, (throughput * radiance).times(weight), h);
+            }
+            if depth >= scene.max_depth {
+                break;
+            }
+            let vertex = if in_medium {
+                Vertex {
+                    point: Point::free(ray.at(scattered_at)),
+                    wi: -ray.direction,
+                    law: Law::Isotropic,
+                    lobes: Lobes { reflectance: C::ONE, roughness: C::ZERO },
+                    frame: Frame::about(ray.direction),
+                    normal: ray.direction,
+                    shading: ray.direction,
+                }
+            } else {
+                let Some((point, surface)) = found else { break };
+                let front = point.normal.dot(ray.direction) < 0.0;
+                if surface.black || !(front || surface.two_sided) {
+                    break;
+                }
+                let side = if front { 1.0 } else { -1.0 };
+                let normal = point.normal * side;
+                let shading = point.shading * side;
+                let shading = if shading.dot(ray.direction) < 0.0 { shading } else { normal };
+                Vertex {
+                    point,
+                    wi: -ray.direction,
+                    law: if CONDUCTORS && surface.conductor { Law::Conductor } else { Law::Diffuse },
+                    lobes: surface.lobes,
+                    frame: Frame::about(shading),
+                    normal,
+                    shading,
+                }
+            };
+            if LIGHTS {
+                let place = (vertex.point.position, vertex.facing::<CONDUCTORS, MEDIA>());
+                let (mut f, mut h_light) = (C::ZERO, C::ONE);
+                if let Some(chosen) = scene.lights.choose::<AUXILIARY>(place, random.uniform(), weights) {
+                    h_light = chosen.h;
+                    let light = &scene.lights.lights[chosen.light];
+                    let sampled = light
+                        .emitter
+                        .sample(place.0, random.uniforms())
+                        .and_then(|towards| Some((towards, vertex.scattered::<CONDUCTORS, MEDIA>(towards.direction)?)));
+                    if let Some((towards, scattered)) = sampled {
+                        let shadow = vertex.point.towards(towards.direction);
+                        let (but, end) = if light.emitter.hides_itself() {
+                            (NONE, towards.distance * (1.0 - 1e-4))
+                        } else {
+                            (light.shape, towards.distance)
+                        };
+                        if !scene.geometry.occluded(&shadow, end, but) {
+                            let inverse = towards.inverse_pdf / chosen.probability;
+                            let weight = if SCATTERING && !light.emitter.is_point() {
+                                1.0 / (1.0 + (h * scattered.density).mean() * inverse)
+                            } else {
+                                1.0
+                            };
+                            f = throughput * scattered.over_density * scattered.density * light.radiance;
+                            f = f.times(inverse * weight);
+                            if MEDIA {
+                                f = f * transmittance(&scene.media, &shadow, towards.distance);
+                            }
+                            h_light = planted!("weight_on_h": h_light, h_light.times(weight));
+                        }
+                    }
+                }
+                record.light(depth + 1, f, planted!("light_without_the_path": h * h_light, h_light));
+            }
+            if depth + 1 >= scene.max_depth && !SCATTERING {
+                break;
+            }
+            let (direction, scattered) = vertex.sample::<CONDUCTORS, MEDIA>(channel, random);
+            density = (h * scattered.density).mean();
+            if !(density > 0.0) {
+                break;
+            }
+            let ratio = scattered.density.times(1.0 / density);
+            throughput = throughput * scattered.over_density * ratio;
+            h = h * ratio;
+            let mut greatest = throughput.largest();
+            if !(greatest > 0.0) {
+                h = planted!("h_zeroed_below_the_horizon": h, C::ZERO);
+                break;
+            }
+            depth += 1;
+            if depth >= scene.roulette_depth {
+                greatest = greatest.min(0.95);
+                if random.uniform() >= greatest {
+                    break;
+                }
+                throughput = throughput.times(1.0 / greatest);
+            }
+            ray = vertex.point.towards(direction);
+            hit = scene.geometry.closest(&ray);
+        }
+        record.end(h)
+    }
+}

@@ -1,0 +1,49 @@
+//! One kernel per combination of needs.
+
+use crate::Scene;
+use crate::colour::Colour;
+use crate::needs::Needs;
+use crate::path::Samples;
+use crate::path::kernel::{Block, Paths};
+use ratiocv_simd::at_best_level;
+
+/// Traces a block of samples.
+pub(crate) type Kernel<C> = fn(&Scene<C>, Block, &mut Samples<C>);
+
+fn trace<
+    C: Colour,
+    const AUXILIARY: bool,
+    const MEDIA: bool,
+    const CONDUCTORS: bool,
+    const LIGHTS: bool,
+    const SCATTERING: bool,
+>(
+    scene: &Scene<C>,
+    block: Block,
+    samples: &mut Samples<C>,
+) {
+    // One channel has no auxiliaries, and needs no kernels with them.
+    if !AUXILIARY || C::LANES > 1 {
+        at_best_level(Paths::<C, AUXILIARY, MEDIA, CONDUCTORS, LIGHTS, SCATTERING> { scene, block, samples });
+    }
+}
+
+/// The kernel of a scene: 16 for RGB, 8 for one channel.
+///
+/// Techniques and conductors come in four combinations, because others cost next to nothing more in the kernel
+/// with both.
+pub(crate) fn kernel<C: Colour>(needs: &Needs) -> Kernel<C> {
+    macro_rules! select {
+        ($($auxiliary:literal $media:literal)*) => {
+            match (needs.auxiliary, needs.media, needs.conductors, needs.light_sampling, needs.scattering) {
+                $(
+                    ($auxiliary, $media, false, true, false) => trace::<C, $auxiliary, $media, false, true, false>,
+                    ($auxiliary, $media, false, false, _) => trace::<C, $auxiliary, $media, false, false, true>,
+                    ($auxiliary, $media, true, false, _) => trace::<C, $auxiliary, $media, true, false, true>,
+                    ($auxiliary, $media, _, true, _) => trace::<C, $auxiliary, $media, true, true, true>,
+                )*
+            }
+        };
+    }
+    select!(false false  false true  true false  true true)
+}

@@ -1,0 +1,13 @@
+//! Paths: what they yield, and the kernels that trace them.
+
+mod kernel;
+mod kernels;
+mod record;
+mod samples;
+mod terms;
+
+pub(crate) use kernel::Block;
+pub(crate) use kernels::{Kernel, kernel};
+pub use samples::{BLOCK, Samples};
+pub(crate) use terms::Terms;
+pub use terms::{Technique, Term};

@@ -1,0 +1,73 @@
+//! Where the light of one path goes.
+
+use crate::colour::Colour;
+use crate::path::samples::BLOCK;
+use crate::path::terms::{PLAIN, Terms};
+use crate::planted::planted;
+use ratiocv_core::Draw;
+
+/// Sample number `sample`. Without `AUXILIARY` everything goes to the plain sum.
+pub(super) struct Record<'a, C, const AUXILIARY: bool> {
+    pub(super) plain: C,
+    terms: &'a Terms,
+    pairs: &'a mut [[Draw<C>; BLOCK]],
+    sample: usize,
+    /// Terms that were written; a path comes to them in their order.
+    written: usize,
+}
+
+impl<'a, C: Colour, const AUXILIARY: bool> Record<'a, C, AUXILIARY> {
+    #[inline(always)]
+    pub(super) const fn new(terms: &'a Terms, pairs: &'a mut [[Draw<C>; BLOCK]], sample: usize) -> Self {
+        Self { plain: C::ZERO, terms, pairs, sample, written: 0 }
+    }
+
+    /// f and h of light that was sampled.
+    #[inline(always)]
+    pub(super) fn light(&mut self, depth: usize, f: C, h: C) {
+        if AUXILIARY {
+            self.put(self.terms.light(depth), f, h);
+        } else {
+            self.plain = self.plain + f;
+        }
+    }
+
+    /// f and h of light that was met.
+    #[inline(always)]
+    pub(super) fn scattering(&mut self, depth: usize, f: C, h: C) {
+        if AUXILIARY {
+            self.put(self.terms.scattering(depth), f, h);
+        } else {
+            self.plain = self.plain + f;
+        }
+    }
+
+    #[inline(always)]
+    fn put(&mut self, term: u8, f: C, h: C) {
+        if term == PLAIN {
+            self.plain = self.plain + f;
+            return;
+        }
+        let Some(draws) = self.pairs.get_mut(usize::from(term)) else { return };
+        let draw = &mut draws[self.sample];
+        if usize::from(term) < self.written {
+            // Deeper than the terms go: with the h that it began with.
+            draw.f = draw.f + f;
+        } else {
+            *draw = Draw::new(f, h);
+            self.written = usize::from(term) + 1;
+        }
+    }
+
+    /// The path has ended: h keeps its value, because E[h] = 1 given all that came before.
+    #[inline(always)]
+    pub(super) fn end(self, h: C) -> C {
+        if AUXILIARY {
+            let h = planted!("h_zeroed_at_the_end": h, C::ZERO);
+            for draws in &mut self.pairs[self.written..] {
+                draws[self.sample] = Draw::new(C::ZERO, h);
+            }
+        }
+        self.plain
+    }
+}
