@@ -4,7 +4,7 @@
 use glam::{Affine3A, Vec3, vec3};
 use ratiocv_scene::{Camera, Description, Filter, Geometry, Light, Material, Medium, Roughness, Shape, Surface};
 
-pub const ALL: [&str; 14] =
+pub(crate) const ALL: [&str; 14] =
     ["S1", "S1b", "S1k", "S2", "S2w", "S3", "S3m", "S4a", "S4b", "S4c", "S4d", "S4e", "S4f", "S4g"];
 
 fn look_at(eye: Vec3, target: Vec3, fov: f32) -> Camera {
@@ -28,20 +28,20 @@ fn scene(camera: Camera, max_depth: Option<u32>) -> Description {
     }
 }
 
-pub fn shape(geometry: Geometry, material: Material, two_sided: bool) -> Shape {
+pub(crate) fn shape(geometry: Geometry, material: Material, two_sided: bool) -> Shape {
     let surface = Surface { material, two_sided };
     Shape { geometry, surface, emission: None, medium: None, flip_normals: false, visible_to_camera: true }
 }
 
-pub fn diffuse(reflectance: Vec3) -> Material {
+pub(crate) fn diffuse(reflectance: Vec3) -> Material {
     Material::Diffuse { reflectance }
 }
 
-pub fn sphere(center: Vec3, radius: f32) -> Geometry {
+pub(crate) fn sphere(center: Vec3, radius: f32) -> Geometry {
     Geometry::Sphere { center, radius }
 }
 
-pub fn lit(geometry: Geometry, emission: Vec3) -> Shape {
+pub(crate) fn lit(geometry: Geometry, emission: Vec3) -> Shape {
     Shape { emission: Some(emission), ..shape(geometry, diffuse(Vec3::ZERO), false) }
 }
 
@@ -50,7 +50,7 @@ fn grey(albedo: f32) -> Material {
 }
 
 /// center ± u ± v with the normal u × v.
-pub fn quad(center: Vec3, u: Vec3, v: Vec3) -> Geometry {
+pub(crate) fn quad(center: Vec3, u: Vec3, v: Vec3) -> Geometry {
     let n = u.cross(v).normalize();
     Geometry::Rectangle(Affine3A::from_cols(u.into(), v.into(), n.into(), center.into()))
 }
@@ -134,7 +134,7 @@ fn s4(max_depth: Option<u32>, ball: Shape, environment: Vec3) -> Description {
     s
 }
 
-pub fn built(name: &str) -> Description {
+pub(crate) fn built(name: &str) -> Description {
     let ball = || sphere(Vec3::ZERO, 1.0);
     let coloured = diffuse(vec3(0.2, 0.5, 0.8));
     match name {
@@ -165,17 +165,17 @@ pub fn built(name: &str) -> Description {
 }
 
 /// An image mean per channel and its standard error, and five pixels likewise, in the order of [`PIXELS`].
-pub struct Reference {
-    pub name: &'static str,
-    pub mean: [[f64; 3]; 2],
-    pub pixels: [[[f64; 3]; 2]; 5],
+pub(crate) struct Reference {
+    pub(crate) name: &'static str,
+    pub(crate) mean: [[f64; 3]; 2],
+    pub(crate) pixels: [[[f64; 3]; 2]; 5],
 }
 
 /// Column and row.
-pub const PIXELS: [[u32; 2]; 5] = [[64, 64], [32, 100], [100, 40], [64, 100], [40, 70]];
+pub(crate) const PIXELS: [[u32; 2]; 5] = [[64, 64], [32, 100], [100, 40], [64, 100], [40, 70]];
 
 /// By an independent implementation.
-pub const REFERENCES: [Reference; 7] = [
+pub(crate) const REFERENCES: [Reference; 7] = [
     Reference {
         name: "S1",
         mean: [[0.32411802, 0.32440864, 0.22576346], [7.89805711e-07, 7.87908954e-07, 7.95706212e-07]],
@@ -252,5 +252,54 @@ pub const REFERENCES: [Reference; 7] = [
             [[0.1400344, 0.090533, 0.09414586], [0.00072241, 0.00117762, 0.00131401]],
             [[0.0915084, 0.11420591, 0.1041934], [0.00089153, 0.00150579, 0.00144681]],
         ],
+    },
+];
+
+/// An image mean and the pixels [`EXACT_PIXELS`], exact to the digits given.
+pub(crate) struct Exact {
+    pub(crate) name: &'static str,
+    pub(crate) mean: [f64; 3],
+    pub(crate) pixels: [[f64; 3]; 3],
+}
+
+/// Column and row.
+pub(crate) const EXACT_PIXELS: [[u32; 2]; 3] = [[64, 64], [90, 50], [0, 0]];
+
+const fn everywhere(name: &'static str, value: [f64; 3]) -> Exact {
+    Exact { name, mean: value, pixels: [value; 3] }
+}
+
+/// Closed forms and quadrature.
+pub(crate) const EXACT: [Exact; 7] = [
+    everywhere("S4a", [1.0; 3]),
+    Exact {
+        name: "S4b",
+        mean: [0.68380184, 0.40118808, 1.84190092],
+        pixels: [[0.2, 0.25, 1.6], [0.2, 0.25, 1.6], [1.0, 0.5, 2.0]],
+    },
+    everywhere("S4c", [1.2496, 1.9375, 3.3616]),
+    Exact {
+        name: "S4d",
+        mean: [0.90992488, 0.72427228, 0.61311641],
+        pixels: [
+            [6.70366291e-01, 1.35381976e-01, 4.54783239e-05],
+            [7.42325817e-01, 2.25421268e-01, 5.82808823e-04],
+            [1.0; 3],
+        ],
+    },
+    everywhere("S4e", [1.0; 3]),
+    Exact {
+        name: "S4f",
+        mean: [0.3023108, 0.30262258, 0.33339028],
+        pixels: [
+            [0.3194618, 0.32358929, 0.45933446],
+            [0.17441897, 0.30063109, 0.51278001],
+            [0.0358513, 0.02149084, 0.09551126],
+        ],
+    },
+    Exact {
+        name: "S4g",
+        mean: [0.99638321, 0.96556004, 0.87739912],
+        pixels: [[0.99729571, 0.94764685, 0.68783827], [0.99609844, 0.92825545, 0.67867391], [1.0; 3]],
     },
 ];
