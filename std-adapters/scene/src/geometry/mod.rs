@@ -1,4 +1,5 @@
-//! Shapes, sorted by kind into arrays: what a ray meets first, and whether it meets anything.
+//! Shapes, sorted by kind into arrays: what a ray meets first, and whether it meets anything. Spheres and
+//! rectangles are searched eight at a time.
 //!
 //! A ray knows the shape that it leaves. From a point of a convex shape, [t₀, t₁] is [0, t₀ + t₁] or empty
 //! whatever rounding says, and a plane is not met again at all: no offsets that would have to be larger than
@@ -7,6 +8,7 @@
 mod columns;
 mod cube;
 mod mesh;
+mod packs;
 mod rectangle;
 mod sphere;
 
@@ -15,6 +17,8 @@ pub(crate) use cube::Cube;
 pub(crate) use mesh::{Meshes, Triangle};
 pub(crate) use rectangle::Rectangle;
 pub(crate) use sphere::Sphere;
+
+use packs::{Rectangles, Spheres, closest_in, occluded_by, packs_of};
 
 use crate::description;
 use crate::error::SceneError;
@@ -57,6 +61,10 @@ pub(crate) struct Hit {
     triangle: u32,
 }
 
+impl Hit {
+    const NONE: Self = Self { t: f32::INFINITY, shape: NONE, triangle: NONE };
+}
+
 /// A point of a surface or in space, from which rays start.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Point {
@@ -87,6 +95,8 @@ impl Point {
 pub(crate) struct Interval(pub(crate) f32, pub(crate) f32);
 
 impl Interval {
+    const EMPTY: Self = Self(f32::INFINITY, f32::NEG_INFINITY);
+
     /// Where the ray meets the surface first; infinity if it does not.
     #[inline(always)]
     fn first(self) -> f32 {
@@ -115,6 +125,8 @@ pub(crate) struct Geometry {
     spheres: Vec<Sphere>,
     rectangles: Vec<Rectangle>,
     cubes: Vec<Cube>,
+    sphere_packs: Vec<Spheres>,
+    rectangle_packs: Vec<Rectangles>,
     pub(crate) meshes: Option<Meshes>,
     /// How many spheres, rectangles and cubes the camera sees.
     seen: [usize; 3],
@@ -172,6 +184,8 @@ impl Geometry {
                 Solid::Mesh => mesh::triangles_of(&shapes[*i], *i, number as u32, &mut triangles)?,
             }
         }
+        geometry.sphere_packs = packs_of(&geometry.spheres);
+        geometry.rectangle_packs = packs_of(&geometry.rectangles);
         if !triangles.is_empty() {
             geometry.meshes = Some(Meshes::new(triangles));
         }
@@ -192,24 +206,19 @@ impl Geometry {
 
     #[inline(always)]
     fn closest_of<const CAMERA: bool>(&self, ray: &Ray, [spheres, rectangles, cubes]: [usize; 3]) -> Hit {
-        let mut hit = Hit { t: f32::INFINITY, shape: NONE, triangle: NONE };
-        let mut number = 0;
-        let mut nearer = |t: f32, shape: usize| {
-            if t < hit.t {
-                (hit.t, hit.shape) = (t, shape as u32);
+        let Hit { mut t, mut shape, .. } = Hit::NONE;
+        closest_in(&self.sphere_packs, ray, 0, spheres as u32, (&mut t, &mut shape));
+        let mut number = self.spheres.len() as u32;
+        closest_in(&self.rectangle_packs, ray, number, number + rectangles as u32, (&mut t, &mut shape));
+        number += self.rectangles.len() as u32;
+        for cube in &self.cubes[..cubes] {
+            let distance = cube.distance(ray, ray.shape == number);
+            if distance < t {
+                (t, shape) = (distance, number);
             }
-        };
-        for (i, sphere) in self.spheres[..spheres].iter().enumerate() {
-            nearer(sphere.distance(ray, ray.shape == i as u32), i);
+            number += 1;
         }
-        number += self.spheres.len();
-        for (i, rectangle) in self.rectangles[..rectangles].iter().enumerate() {
-            nearer(rectangle.distance(ray, ray.shape == (number + i) as u32), number + i);
-        }
-        number += self.rectangles.len();
-        for (i, cube) in self.cubes[..cubes].iter().enumerate() {
-            nearer(cube.distance(ray, ray.shape == (number + i) as u32), number + i);
-        }
+        let mut hit = Hit { t, shape, triangle: NONE };
         if let Some(meshes) = &self.meshes {
             if let Some((t, triangle)) = meshes.closest::<CAMERA>(ray, ray.triangle, hit.t) {
                 hit = Hit { t, shape: meshes.triangle(triangle).shape, triangle };
@@ -222,21 +231,12 @@ impl Geometry {
     /// own that it was sampled at.
     #[inline(always)]
     pub(crate) fn occluded(&self, ray: &Ray, t: f32, but: u32) -> bool {
-        let mut occluded = false;
-        let mut number = 0;
-        for sphere in &self.spheres {
-            let own = ray.shape == number;
-            occluded |= sphere.distance(ray, own) < t && number != but;
-            number += 1;
-        }
-        for rectangle in &self.rectangles {
-            let own = ray.shape == number;
-            occluded |= rectangle.distance(ray, own) < t && number != but;
-            number += 1;
-        }
+        let mut number = self.spheres.len() as u32;
+        let mut occluded =
+            occluded_by(&self.sphere_packs, ray, 0, t, but) | occluded_by(&self.rectangle_packs, ray, number, t, but);
+        number += self.rectangles.len() as u32;
         for cube in &self.cubes {
-            let own = ray.shape == number;
-            occluded |= cube.distance(ray, own) < t && number != but;
+            occluded |= number != but && cube.distance(ray, ray.shape == number) < t;
             number += 1;
         }
         occluded || self.meshes.as_ref().is_some_and(|meshes| meshes.occluded(ray, ray.triangle, t))
@@ -268,5 +268,175 @@ impl Geometry {
             }
             None => Point::free(position),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::description::{Geometry as Described, Material, Mesh, Shape, Surface};
+    use crate::frame::uniform_direction;
+    use crate::random::Random;
+    use glam::{Affine3A, DVec3, Mat3, Quat};
+
+    fn shape(geometry: Described) -> Shape {
+        let surface = Surface { material: Material::Diffuse { reflectance: Vec3::ONE }, two_sided: true };
+        Shape { geometry, surface, emission: None, medium: None, flip_normals: false, visible_to_camera: true }
+    }
+
+    fn vector(random: &mut Random) -> Vec3 {
+        Vec3::from_array([random.uniform(), random.uniform(), random.uniform()]) * 2.0 - 1.0
+    }
+
+    /// Sheared, rotated, moved.
+    fn transform(random: &mut Random, size: f32) -> Affine3A {
+        let rotation = Mat3::from_quat(Quat::from_rotation_arc(Vec3::Z, uniform_direction(random.uniforms())));
+        let shear = Mat3::from_cols(Vec3::X, Vec3::new(0.4 * random.uniform(), 1.0, 0.0), Vec3::new(0.1, 0.2, 1.0));
+        Affine3A::from_mat3_translation(rotation * shear * size, vector(random) * 3.0)
+    }
+
+    /// All distances at which the line meets the shape, in `f64`, with how clearly it does.
+    fn distances(shape: &Shape, origin: DVec3, direction: DVec3) -> Vec<(f64, f64)> {
+        let d = |v: Vec3| v.as_dvec3();
+        match &shape.geometry {
+            Described::Sphere { center, radius } => {
+                let (o, r) = (origin - d(*center), f64::from(*radius));
+                let (b, c) = (o.dot(direction), o.dot(o) - r * r);
+                let square = b * b - c;
+                if square < 0.0 {
+                    return Vec::new();
+                }
+                let half = libm::sqrt(square);
+                vec![(-b - half, half), (-b + half, half)]
+            }
+            Described::Rectangle(to_world) | Described::Cube(to_world) => {
+                let matrix = glam::DMat4::from(glam::Mat4::from(*to_world).as_dmat4()).inverse();
+                let (o, v) = (matrix.transform_point3(origin), matrix.transform_vector3(direction));
+                let planes: &[(usize, f64)] = if matches!(shape.geometry, Described::Rectangle(_)) {
+                    &[(2, 0.0)]
+                } else {
+                    &[(0, -1.0), (0, 1.0), (1, -1.0), (1, 1.0), (2, -1.0), (2, 1.0)]
+                };
+                let met = planes.iter().filter_map(|(axis, place)| {
+                    let t = (place - o[*axis]) / v[*axis];
+                    let p = o + v * t;
+                    let others = [(axis + 1) % 3, (axis + 2) % 3];
+                    let inside = others.iter().map(|k| 1.0 - p[*k].abs()).fold(f64::INFINITY, f64::min);
+                    (inside >= 0.0).then_some((t, inside * v[*axis].abs()))
+                });
+                met.collect()
+            }
+            Described::Mesh(mesh) => {
+                let met = mesh.triangles.iter().filter_map(|corners| {
+                    let [a, b, c] = corners.map(|i| d(mesh.positions[i as usize]));
+                    let (ab, ac) = (b - a, c - a);
+                    let p = direction.cross(ac);
+                    let scale = 1.0 / ab.dot(p);
+                    let s = origin - a;
+                    let q = s.cross(ab);
+                    let (u, v) = (s.dot(p) * scale, direction.dot(q) * scale);
+                    let inside = u.min(v).min(1.0 - u - v);
+                    (inside >= 0.0).then_some((ac.dot(q) * scale, inside))
+                });
+                met.collect()
+            }
+        }
+    }
+
+    fn many(random: &mut Random) -> Vec<Shape> {
+        let mut shapes = Vec::new();
+        for _ in 0..11 {
+            let center = vector(random) * 3.0;
+            shapes.push(shape(Described::Sphere { center, radius: 0.1 + random.uniform() * 0.5 }));
+            shapes.push(shape(Described::Rectangle(transform(random, 0.5))));
+            shapes.push(shape(Described::Cube(transform(random, 0.3))));
+            let positions = (0..9).map(|_| vector(random) * 3.0).collect();
+            let triangles = vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]];
+            shapes.push(shape(Described::Mesh(Mesh { positions, normals: Vec::new(), triangles })));
+        }
+        shapes
+    }
+
+    #[test]
+    fn rays_meet_what_double_precision_says() {
+        let mut random = Random::new(1, [0, 0], 0);
+        let shapes = many(&mut random);
+        let (geometry, order) = Geometry::new(&shapes).expect("sound shapes");
+        let mut met = 0;
+        for _ in 0..20_000 {
+            let ray = Ray::new(vector(&mut random) * 4.0, uniform_direction(random.uniforms()));
+            let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3().normalize());
+            let mut right = (f64::INFINITY, 1.0, NONE);
+            let mut clear = true;
+            for (number, (i, _)) in order.iter().enumerate() {
+                for (t, clearness) in distances(&shapes[*i], origin, direction) {
+                    clear &= clearness > 1e-3 && t.abs() > 1e-4;
+                    if t > 0.0 && t < right.0 {
+                        right = (t, clearness, number as u32);
+                    }
+                }
+            }
+            if !clear {
+                continue;
+            }
+            let hit = geometry.closest(&ray);
+            assert_eq!(hit.shape, right.2, "{ray:?}");
+            let end = if right.2 == NONE { 100.0 } else { hit.t };
+            assert!(!geometry.occluded(&ray, end * 0.999, NONE));
+            if hit.shape != NONE {
+                met += 1;
+                assert!((f64::from(hit.t) - right.0).abs() <= 2e-5 * (1.0 + right.0), "{hit:?} {right:?}");
+                assert!(geometry.occluded(&ray, end * 1.001, NONE));
+                let point = geometry.point(&ray, hit);
+                let there = origin + direction * right.0;
+                assert!((point.position.as_dvec3() - there).length() <= 2e-5);
+                assert!((point.normal.length() - 1.0).abs() <= 1e-5);
+            }
+        }
+        assert!(met > 5000, "{met}");
+    }
+
+    /// From each point of a closed convex shape, a ray outwards does not meet it, and one inwards does, at the
+    /// other side.
+    #[test]
+    fn a_convex_shape_is_left_and_crossed_without_offsets() {
+        let mut random = Random::new(2, [0, 0], 0);
+        let far = 1000.0 * Vec3::ONE;
+        let shapes = [
+            shape(Described::Sphere { center: far, radius: 0.5 }),
+            shape(Described::Cube(Affine3A::from_translation(far))),
+        ];
+        let (geometry, _) = Geometry::new(&shapes).expect("sound shapes");
+        for kind in 0..2 {
+            for _ in 0..10_000 {
+                let ray = Ray::new(far + uniform_direction(random.uniforms()) * 3.0, Vec3::X);
+                let ray = Ray::new(ray.origin, (far + vector(&mut random) * 0.4 - ray.origin).normalize());
+                let hit = geometry.closest(&ray);
+                let point = geometry.point(&ray, hit);
+                let out = uniform_direction(random.uniforms());
+                let out = if out.dot(point.normal) > 0.0 { out } else { -out };
+                if out.dot(point.normal) < 0.02 || hit.shape != kind {
+                    continue;
+                }
+                let away = geometry.closest(&point.towards(out));
+                assert!(away.shape != hit.shape, "{point:?} {out}");
+                assert_eq!(geometry.closest(&point.towards(-out)).shape, hit.shape, "{point:?} {out}");
+            }
+        }
+    }
+
+    #[test]
+    fn shapes_that_the_camera_does_not_see_still_hide() {
+        let mut shapes: Vec<_> =
+            (0..12).map(|i| shape(Described::Sphere { center: Vec3::Z * (2.0 * i as f32), radius: 0.5 })).collect();
+        shapes.iter_mut().step_by(2).for_each(|shape| shape.visible_to_camera = false);
+        let (geometry, order) = Geometry::new(&shapes).expect("sound shapes");
+        let ray = Ray::new(-5.0 * Vec3::Z, Vec3::Z);
+        assert_eq!(order[geometry.seen_by_camera(&ray).shape as usize].0, 1);
+        assert_eq!(order[geometry.closest(&ray).shape as usize].0, 0);
+        assert!(geometry.occluded(&ray, 5.0, NONE));
+        // The light itself is passed over, what is before it is not.
+        let light = geometry.closest(&ray).shape;
+        assert!(!geometry.occluded(&ray, 5.0, light) && geometry.occluded(&ray, 7.0, light));
     }
 }

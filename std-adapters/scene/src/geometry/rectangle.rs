@@ -1,6 +1,6 @@
 //! Rectangles, and parallelograms.
 
-use crate::geometry::{Columns, Ray};
+use crate::geometry::Columns;
 use glam::{Affine3A, Vec3};
 
 /// center + u·edges\[0\] + v·edges\[1\] for u, v in \[−1, 1\].
@@ -9,7 +9,7 @@ pub(crate) struct Rectangle {
     pub(crate) center: Vec3,
     pub(crate) normal: Vec3,
     /// Their products with a point of the plane, from the centre, are u and v.
-    duals: [Vec3; 2],
+    pub(super) duals: [Vec3; 2],
     pub(crate) edges: [Vec3; 2],
 }
 
@@ -23,17 +23,6 @@ impl Rectangle {
         let side = if (z.dot(normal) < 0.0) != flip { -1.0 } else { 1.0 };
         let sound = normal.is_finite() && u.is_finite() && v.is_finite();
         sound.then_some(Self { center: t, normal: normal * side, duals: [u, v], edges: [x, y] })
-    }
-
-    /// The distance to the surface, infinite if the ray passes or starts on it.
-    #[inline(always)]
-    pub(crate) fn distance(&self, ray: &Ray, own: bool) -> f32 {
-        let to_center = self.center - ray.origin;
-        let t = self.normal.dot(to_center) / self.normal.dot(ray.direction);
-        let place = ray.direction * t - to_center;
-        let [u, v] = self.duals.map(|dual| dual.dot(place).abs());
-        let met = (t > 0.0) & (u <= 1.0) & (v <= 1.0) & !own;
-        if met { t } else { f32::INFINITY }
     }
 
     pub(crate) fn area(&self) -> f32 {

@@ -215,3 +215,77 @@ impl<C: Colour> Lights<C> {
         Some(Chosen { light: chosen, probability, h })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::NONE;
+    use crate::random::Random;
+    use ratiocv_core::Spectrum;
+
+    type Rgb = Spectrum<f32, 3>;
+
+    fn lights(choice: LightChoice, mixture: Mixture) -> Lights<Rgb> {
+        let mut lights = Lights::new(choice, mixture);
+        let intensities = [[3.0, 1.0, 0.0], [0.5, 2.0, 0.0], [1.0, 1.0, 0.0]];
+        let places = [Vec3::new(0.0, 2.0, 0.0), Vec3::new(3.0, 1.0, 0.0), Vec3::new(0.0, -1.0, 0.0)];
+        for (place, intensity) in places.into_iter().zip(intensities) {
+            lights.push(Emitter::Point(place), NONE, Spectrum(intensity));
+        }
+        lights
+    }
+
+    /// H0: each light is chosen with the probability that is stated. N = 100 000; binomial; α = 10⁻⁹ for 27 counts:
+    /// 6.6 standard deviations. h·p is p_j, which adds up to 1 per channel.
+    #[test]
+    fn probabilities_are_frequencies_and_add_up_to_1() {
+        let n = 100_000;
+        let place = (Vec3::ZERO, Facing::Cosine(Vec3::Y));
+        for choice in [LightChoice::Uniform, LightChoice::Power, LightChoice::Local] {
+            for mixture in [Mixture::Luminance, Mixture::L2, Mixture::Uniform] {
+                let lights = lights(choice, mixture);
+                let mut weights = Weights::new(3);
+                let mut random = Random::new(6, [choice as u32, mixture as u32], 0);
+                let mut seen = [None; 3];
+                let mut counts = [0.0; 3];
+                for _ in 0..n {
+                    let chosen = lights.choose::<true>(place, random.uniform(), &mut weights).expect("a light");
+                    counts[chosen.light] += 1.0;
+                    seen[chosen.light] = Some(chosen);
+                }
+                let mut sums = [0.0; 4];
+                for (light, chosen) in seen.iter().enumerate() {
+                    let Some(chosen) = chosen else { continue };
+                    let p = f64::from(chosen.probability);
+                    let allowed = 6.6 * libm::sqrt(f64::from(n) * p * (1.0 - p));
+                    let expected = p * f64::from(n);
+                    assert!((counts[light] - expected).abs() <= allowed, "{choice:?} {mixture:?} {light}: {counts:?}");
+                    sums[3] += p;
+                    (0..3).for_each(|c| sums[c] += f64::from(chosen.h[c]) * p);
+                }
+                assert!(sums.iter().all(|sum| (sum - 1.0).abs() <= 1e-6), "{choice:?} {mixture:?}: {sums:?}");
+                // Below the horizon there is a light.
+                assert_eq!(seen[2].is_none(), choice == LightChoice::Local);
+            }
+        }
+    }
+
+    /// Red: 3/4 from the first, 0.5/10·(1/√10) from the second.
+    #[test]
+    fn local_probabilities_by_hand() {
+        let lights = lights(LightChoice::Local, Mixture::Luminance);
+        let mut weights = Weights::new(3);
+        let place = (Vec3::ZERO, Facing::Cosine(Vec3::Y));
+        let chosen = lights.choose::<true>(place, 0.0, &mut weights).expect("a light");
+        let far = 0.1 / libm::sqrtf(10.0);
+        let red = 0.75 / (0.75 + 0.5 * far);
+        let green = 0.25 / (0.25 + 2.0 * far);
+        let luminance = |r: f32, g: f32| 0.212_671 * r + 0.715_160 * g;
+        let p = luminance(0.75, 0.25) / (luminance(0.75, 0.25) + luminance(0.5 * far, 2.0 * far));
+        assert_eq!(chosen.light, 0);
+        assert!((chosen.probability - p).abs() <= 1e-6, "{chosen:?} {p}");
+        for (ours, right) in chosen.h.0.into_iter().zip([red / p, green / p, 1.0]) {
+            assert!((ours - right).abs() <= 1e-5, "{chosen:?} {right}");
+        }
+    }
+}

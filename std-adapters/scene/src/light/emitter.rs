@@ -191,3 +191,83 @@ fn cone(radius: f32, square: f32) -> Option<f32> {
     let sin2 = radius * radius / square;
     (sin2 < 1.0).then(|| sin2 / (1.0 + (1.0 - sin2).sqrt()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Random;
+    use glam::Affine3A;
+
+    /// Means of 1/pdf and of cos²/pdf about the direction to the middle, and that `inverse_pdf` of the point met
+    /// is that of the sample.
+    fn solid_angle(emitter: &Emitter, from: Vec3, n: u32) -> f64 {
+        let mut random = Random::new(4, [0, 0], 0);
+        let mut sum = 0.0;
+        for _ in 0..n {
+            if let Some(towards) = emitter.sample(from, random.uniforms()) {
+                sum += f64::from(towards.inverse_pdf);
+                assert!((towards.direction.length() - 1.0).abs() <= 1e-5 && towards.distance > 0.0);
+            }
+        }
+        sum / f64::from(n)
+    }
+
+    #[test]
+    fn inverse_densities_average_to_the_solid_angle() {
+        let sphere = Sphere::new(Vec3::new(0.0, 0.0, 3.0), 1.0, false).expect("a sphere");
+        // 2π(1 − cos) with sin = 1/3, exactly: the density is uniform.
+        let right = core::f64::consts::TAU * (1.0 - libm::sqrt(8.0 / 9.0));
+        let ours = solid_angle(&Emitter::Sphere(sphere), Vec3::ZERO, 100);
+        assert!((ours - right).abs() <= 1e-5 * right, "{ours} {right}");
+        // From its own surface, cos/distance² averages to 1/(2r)·mean(1/distance) = 1/(2r²): half of all directions.
+        let inside = Emitter::Sphere(Sphere::new(Vec3::ZERO, 2.0, true).expect("a sphere"));
+        let from = Vec3::new(0.0, 0.0, 2.0);
+        let ours = solid_angle(&inside, from, 1_000_000);
+        // 1/pdf = 4πr²·cos/d² = 2πr/d, and 1/d² has a logarithmic tail: N = 10⁶, σ ≈ 6, 6.5σ/√N = 0.04.
+        assert!((ours - core::f64::consts::TAU).abs() <= 0.04, "{ours}");
+        // A square seen from straight below its middle: 4 asin(1/(1 + h²)) = 4 asin(½) at h = 1.
+        let down = Affine3A::from_axis_angle(Vec3::X, core::f32::consts::PI);
+        let square = Affine3A::from_translation(Vec3::Z) * down;
+        let emitter = |to_world: &Affine3A| {
+            let rectangle = Rectangle::new(to_world, false).expect("a square");
+            Emitter::Rectangle { area: rectangle.area(), rectangle }
+        };
+        let right = 4.0 * libm::asin(0.5);
+        // σ < 1.2: N = 10⁵, 6.5σ/√N = 0.025.
+        let ours = solid_angle(&emitter(&square), Vec3::ZERO, 100_000);
+        assert!((ours - right).abs() <= 0.025, "{ours} {right}");
+        assert_eq!(solid_angle(&emitter(&Affine3A::from_translation(Vec3::Z)), Vec3::ZERO, 100), 0.0);
+        // A cube [−1, 1]³ from 2 away: it shows its nearest face alone, at h = 1.
+        let cube = Cube::new(&Affine3A::from_translation(2.0 * Vec3::Z), false).expect("a cube");
+        let ours = solid_angle(&Emitter::Cube { area: cube.area(), cube }, Vec3::ZERO, 600_000);
+        assert!((ours - right).abs() <= 0.03, "{ours} {right}");
+    }
+
+    #[test]
+    fn what_is_met_has_the_density_that_it_was_sampled_with() {
+        let mut random = Random::new(5, [0, 0], 0);
+        let to_world = Affine3A::from_translation(Vec3::new(0.3, 2.0, -0.4));
+        let rectangle = Rectangle::new(&to_world, true).expect("a square");
+        let cube = Cube::new(&to_world, false).expect("a cube");
+        let sphere = Sphere::new(Vec3::Y, 0.3, false).expect("a sphere");
+        let from = Vec3::new(0.1, -0.2, -3.0);
+        for _ in 0..1000 {
+            let u = random.uniforms();
+            for emitter in [
+                Emitter::Sphere(sphere),
+                Emitter::Rectangle { rectangle, area: rectangle.area() },
+                Emitter::Cube { cube, area: cube.area() },
+            ] {
+                let Some(towards) = emitter.sample(from, u) else { continue };
+                let position = from + towards.direction * towards.distance;
+                let normal = match &emitter {
+                    Emitter::Sphere(sphere) => sphere.point(position).1,
+                    Emitter::Rectangle { rectangle, .. } => rectangle.normal,
+                    _ => cube.normal(position),
+                };
+                let again = emitter.inverse_pdf(from, towards.distance, -normal.dot(towards.direction));
+                assert!((again - towards.inverse_pdf).abs() <= 1e-4 * again, "{again} {towards:?}");
+            }
+        }
+    }
+}

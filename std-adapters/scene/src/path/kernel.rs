@@ -72,9 +72,9 @@ struct Vertex<C> {
     wi: Vec3,
     law: Law,
     lobes: Lobes<C>,
-    /// About the shading normal, on the side of the ray.
-    frame: Frame,
+    /// On the side of the ray.
     normal: Vec3,
+    /// The one that scatters.
     shading: Vec3,
 }
 
@@ -103,7 +103,8 @@ impl<C: Colour> Vertex<C> {
             return None;
         }
         Some(if CONDUCTORS && self.law == Law::Conductor {
-            let [wi, wo] = [self.frame.to_local(self.wi), self.frame.to_local(wo)];
+            let frame = Frame::about(self.shading);
+            let [wi, wo] = [frame.to_local(self.wi), frame.to_local(wo)];
             Scattered { over_density: self.lobes.over_density(wo), density: self.lobes.density(wi, wo) }
         } else {
             Scattered { over_density: self.lobes.reflectance, density: C::splat(cos * FRAC_1_PI) }
@@ -122,14 +123,15 @@ impl<C: Colour> Vertex<C> {
             let density = C::splat(0.25 * FRAC_1_PI);
             return (uniform_direction(u), Scattered { over_density: C::ONE, density });
         }
+        let frame = Frame::about(self.shading);
         let (local, over_density, density) = if CONDUCTORS && self.law == Law::Conductor {
-            let (wo, density) = self.lobes.sample(channel, self.frame.to_local(self.wi), u);
+            let (wo, density) = self.lobes.sample(channel, frame.to_local(self.wi), u);
             (wo, self.lobes.over_density(wo), density)
         } else {
             let wo = cosine_direction(u);
             (wo, self.lobes.reflectance, C::splat(wo.z * FRAC_1_PI))
         };
-        let wo = self.frame.to_world(local);
+        let wo = frame.to_world(local);
         let above = local.z > 0.0 && self.normal.dot(wo) > 0.0;
         (wo, Scattered { over_density: if above { over_density } else { C::ZERO }, density })
     }
@@ -217,7 +219,6 @@ impl<
                     wi: -ray.direction,
                     law: Law::Isotropic,
                     lobes: Lobes { reflectance: C::ONE, roughness: C::ZERO },
-                    frame: Frame::about(ray.direction),
                     normal: ray.direction,
                     shading: ray.direction,
                 }
@@ -236,7 +237,6 @@ impl<
                     wi: -ray.direction,
                     law: if CONDUCTORS && surface.conductor { Law::Conductor } else { Law::Diffuse },
                     lobes: surface.lobes,
-                    frame: Frame::about(shading),
                     normal,
                     shading,
                 }
