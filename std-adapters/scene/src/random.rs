@@ -19,7 +19,9 @@ impl Random {
     /// numbers do: no two start alike.
     pub(crate) fn new(seed: u64, [x, y]: [u32; 2], block: u64) -> Self {
         let pixel = u64::from(y) << 32 | u64::from(x);
-        let halves = [mixed(mixed(seed) ^ mixed(pixel)), mixed(mixed(!seed) ^ mixed(!block))];
+        // Mixed once more than pixel and block, which may be the same numbers.
+        let key = mixed(mixed(seed));
+        let halves = [mixed(key ^ mixed(pixel)), mixed(mixed(key) ^ mixed(!block))];
         let mut state = [0; 16];
         for (bytes, half) in state.as_chunks_mut().0.iter_mut().zip(halves) {
             *bytes = half.to_le_bytes();

@@ -37,7 +37,8 @@ pub(super) trait Pack: Sized {
     /// Lanes that no ray meets.
     const EMPTY: Self;
     fn set(&mut self, lane: usize, shape: &Self::Shape);
-    /// The distance to each; `own` is the lane that the ray starts on.
+    /// The distance to each; `own` is the lane that the ray starts on, which may be an empty one: the numbers of other
+    /// kinds go on from here.
     fn distances(&self, ray: &Ray, own: u32) -> Lane;
 }
 
@@ -137,8 +138,9 @@ impl Pack for Spheres {
             let near = -b - half;
             let first = if near > 0.0 { near } else { half - b };
             // The root also where a ray from the surface grazes and rounding would let it out.
-            let t = if lane as u32 == own { -2.0 * b } else { first };
-            let met = (t > 0.0) & ((square >= 0.0) | (lane as u32 == own));
+            let own = (lane as u32 == own) & (self.square[lane] > 0.0);
+            let t = if own { -2.0 * b } else { first };
+            let met = (t > 0.0) & ((square >= 0.0) | own);
             distances[lane] = if met { t } else { f32::INFINITY };
         }
         distances
