@@ -43,7 +43,7 @@ impl Random {
     /// One of `n`, which must be at most 2¹⁶: exact to 2⁻³².
     #[inline(always)]
     pub(crate) fn below(&mut self, n: usize) -> usize {
-        (u64::from(self.0.next_u32()) * n as u64 >> 32) as usize
+        ((u64::from(self.0.next_u32()) * n as u64) >> 32) as usize
     }
 }
 

@@ -219,10 +219,10 @@ impl Geometry {
             number += 1;
         }
         let mut hit = Hit { t, shape, triangle: NONE };
-        if let Some(meshes) = &self.meshes {
-            if let Some((t, triangle)) = meshes.closest::<CAMERA>(ray, ray.triangle, hit.t) {
-                hit = Hit { t, shape: meshes.triangle(triangle).shape, triangle };
-            }
+        if let Some(meshes) = &self.meshes
+            && let Some((t, triangle)) = meshes.closest::<CAMERA>(ray, ray.triangle, hit.t)
+        {
+            hit = Hit { t, shape: meshes.triangle(triangle).shape, triangle };
         }
         hit
     }
@@ -310,7 +310,7 @@ mod tests {
                 vec![(-b - half, half), (-b + half, half)]
             }
             Described::Rectangle(to_world) | Described::Cube(to_world) => {
-                let matrix = glam::DMat4::from(glam::Mat4::from(*to_world).as_dmat4()).inverse();
+                let matrix = glam::Mat4::from(*to_world).as_dmat4().inverse();
                 let (o, v) = (matrix.transform_point3(origin), matrix.transform_vector3(direction));
                 let planes: &[(usize, f64)] = if matches!(shape.geometry, Described::Rectangle(_)) {
                     &[(2, 0.0)]

@@ -129,7 +129,7 @@ impl Pack for Spheres {
     fn distances(&self, ray: &Ray, own: u32) -> Lane {
         let (o, d) = (ray.origin, ray.direction);
         let mut distances = [0.0; LANES];
-        for lane in 0..LANES {
+        for (lane, distance) in distances.iter_mut().enumerate() {
             let (x, y, z) = (o.x - self.center.x[lane], o.y - self.center.y[lane], o.z - self.center.z[lane]);
             let b = x * d.x + y * d.y + z * d.z;
             let (lx, ly, lz) = (x - d.x * b, y - d.y * b, z - d.z * b);
@@ -141,7 +141,7 @@ impl Pack for Spheres {
             let own = (lane as u32 == own) & (self.square[lane] > 0.0);
             let t = if own { -2.0 * b } else { first };
             let met = (t > 0.0) & ((square >= 0.0) | own);
-            distances[lane] = if met { t } else { f32::INFINITY };
+            *distance = if met { t } else { f32::INFINITY };
         }
         distances
     }
@@ -172,14 +172,14 @@ impl Pack for Rectangles {
     fn distances(&self, ray: &Ray, own: u32) -> Lane {
         let (o, d) = (ray.origin, ray.direction);
         let mut distances = [0.0; LANES];
-        for lane in 0..LANES {
+        for (lane, distance) in distances.iter_mut().enumerate() {
             let to = Vec3::new(self.center.x[lane] - o.x, self.center.y[lane] - o.y, self.center.z[lane] - o.z);
             // 0/0 in a lane that is empty: NaN is not above 0.
             let t = self.normal.dot(lane, to) / self.normal.dot(lane, d);
             let place = Vec3::new(d.x * t - to.x, d.y * t - to.y, d.z * t - to.z);
             let (u, v) = (self.duals[0].dot(lane, place).abs(), self.duals[1].dot(lane, place).abs());
             let met = (t > 0.0) & (u <= 1.0) & (v <= 1.0) & (lane as u32 != own);
-            distances[lane] = if met { t } else { f32::INFINITY };
+            *distance = if met { t } else { f32::INFINITY };
         }
         distances
     }

@@ -189,7 +189,7 @@ impl<C: Colour> Lights<C> {
             }
         }
         weights.total = total;
-        if !(total > 0.0) {
+        if total.is_nan() || total <= 0.0 {
             return None;
         }
         let mut place = u * total;

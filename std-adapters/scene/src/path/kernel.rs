@@ -175,7 +175,7 @@ impl<
             if MEDIA {
                 let passage = pass(&scene.media, &ray, hit.t, channel, random);
                 let mean = (h * passage.density).mean();
-                if !(mean > 0.0) {
+                if mean.is_nan() || mean <= 0.0 {
                     break;
                 }
                 let ratio = passage.density.times(1.0 / mean);
@@ -281,14 +281,14 @@ impl<
             }
             let (direction, scattered) = vertex.sample::<CONDUCTORS, MEDIA>(channel, random);
             density = (h * scattered.density).mean();
-            if !(density > 0.0) {
+            if density.is_nan() || density <= 0.0 {
                 break;
             }
             let ratio = scattered.density.times(1.0 / density);
             throughput = throughput * scattered.over_density * ratio;
             h = h * ratio;
             let mut greatest = throughput.largest();
-            if !(greatest > 0.0) {
+            if greatest.is_nan() || greatest <= 0.0 {
                 h = planted!("h_zeroed_below_the_horizon": h, C::ZERO);
                 break;
             }
