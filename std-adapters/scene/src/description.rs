@@ -151,28 +151,3 @@ pub enum Light {
         intensity: Vec3,
     },
 }
-
-impl Description {
-    /// A white ball in a white room, for examples: whatever is rendered of it is 1. The image has 128 × 128 pixels.
-    pub fn furnace() -> Self {
-        let surface = Surface { material: Material::Diffuse { reflectance: Vec3::ONE }, two_sided: false };
-        let geometry = Geometry::Sphere { center: Vec3::ZERO, radius: 1.0 };
-        let ball =
-            Shape { geometry, surface, emission: None, medium: None, flip_normals: false, visible_to_camera: true };
-        Self {
-            max_depth: Some(2),
-            roulette_depth: None,
-            // From 4 on the z axis, with −z in front and +x to the left.
-            camera: Camera {
-                to_world: Affine3A::from_translation(Vec3::new(0.0, 0.0, 4.0))
-                    * Affine3A::from_scale(Vec3::new(-1.0, 1.0, -1.0)),
-                fov: 40.0,
-            },
-            size: [128; 2],
-            filter: Filter::Box,
-            samples: 64,
-            shapes: vec![ball],
-            lights: vec![Light::Environment(Vec3::ONE)],
-        }
-    }
-}

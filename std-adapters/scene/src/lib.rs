@@ -31,8 +31,8 @@ pub use colour::Colour;
 pub use description::{
     Camera, Description, Filter, Geometry, Light, Material, Medium, Mesh, Roughness, Shape, Surface,
 };
-pub use input::{BuiltIn, Error, Leniency, Warning};
 pub use error::SceneError;
+pub use input::{BuiltIn, Error, Leniency, Warning};
 pub use light::{LightChoice, Mixture};
 pub use needs::{Needs, Options};
 pub use path::{BLOCK, Samples, Technique, Term};

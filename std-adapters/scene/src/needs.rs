@@ -26,10 +26,11 @@ impl Default for Options {
 /// What a scene needs, and what it does not.
 ///
 /// ```
-/// # let scene = ratiocv_scene::Description::furnace();
-/// let needs = ratiocv_scene::Needs::of(&scene, &Default::default());
+/// use ratiocv_scene::{Description, Needs};
+/// let needs = Needs::of(&Description::built_in("S1")?, &Default::default());
 /// println!("{needs}"); // what is left out, and why
-/// # assert!(!needs.auxiliary && needs.channels == 1);
+/// assert!(needs.coloured_lights && needs.explain().contains(&"media: none"));
+/// # Ok::<(), ratiocv_scene::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]

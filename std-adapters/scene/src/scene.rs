@@ -44,13 +44,14 @@ impl<C: Colour> Scene<C> {
     /// ```
     /// use ratiocv_core::Spectrum;
     /// use ratiocv_scene::{Description, Samples, Scene};
-    /// let scene = Scene::<Spectrum<f32, 3>>::new(&Description::furnace(), &Default::default())?;
+    /// // A ball that reflects 0.2, 0.5 and 0.8 of light of 1, 0.5 and 2.
+    /// let scene = Scene::<Spectrum<f32, 3>>::new(&Description::built_in("S4b")?, &Default::default())?;
     /// let mut samples = Samples::new(&scene);
     /// scene.trace([64, 64], 0, 16, 1, &mut samples); // 16 samples of the pixel in the middle
-    /// for white in &samples.plain[..samples.count] {
-    ///     assert!((white[0] - 1.0).abs() < 1e-6);
+    /// for light in &samples.plain[..samples.count] {
+    ///     assert!((light[2] - 1.6).abs() < 1e-5);
     /// }
-    /// # Ok::<(), ratiocv_scene::SceneError>(())
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(description: &Description, options: &Options) -> Result<Self, SceneError> {
         let needs = Needs::of(description, options);

@@ -129,6 +129,15 @@ fn image_means_of_references() {
 }
 
 #[test]
+fn scene_files_are_these_scenes() {
+    for reference in &REFERENCES {
+        let file = Description::built_in(reference.name).expect("a scene that comes with the crate");
+        let scene = Scene::<Rgb>::new(&file, &PLAIN).expect("a sound scene");
+        agree(plain_image(&scene, 8, 14), reference.mean[0], reference.mean[1], reference.name);
+    }
+}
+
+#[test]
 fn pixels_of_references() {
     for reference in &REFERENCES {
         let [plain, ratio] = [PLAIN, RATIO].map(|options| scene(reference.name, options));
