@@ -40,6 +40,7 @@ mod merge_tree;
 mod progress;
 mod run;
 
+pub use checkpoint::CheckpointFile;
 pub use chunks::{Chunk, map_chunks, stream};
 pub use error::{Error, Fault};
 pub use integrate::{CHUNK, integrate};

@@ -184,8 +184,8 @@ impl<'a> Run<'a> {
         let empty = || estimator.error_bar(&integrals);
 
         let (path, every) = checkpoint.unzip();
-        let checkpoint = path
-            .map(|path| Checkpoint { path, identity: Identity::new(problem, estimator, draws, seed, &fingerprint) });
+        let checkpoint =
+            path.map(|path| Checkpoint::new(path, Identity::new(problem, estimator, draws, seed, &fingerprint)));
         let save = |tree: &MergeTree<_>| checkpoint.as_ref().map_or(Ok(()), |checkpoint| checkpoint.save(tree));
         let mut tree = match checkpoint.as_ref().map(|checkpoint| checkpoint.load(empty)).transpose()?.flatten() {
             Some(tree) => tree,

@@ -1,38 +1,60 @@
 //! The file of a checkpoint: replaced as a whole, or not at all.
 
-use crate::checkpoint::Identity;
 use crate::checkpoint::format::{MAGIC, decoded, encoded};
 use crate::error::{Error, Fault};
-use crate::merge_tree::MergeTree;
-use ratiocv_core::moments::{Moments, Save};
 use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Where a run is kept.
-pub(crate) struct Checkpoint {
-    pub(crate) path: PathBuf,
-    pub(crate) identity: Identity,
+/// Numbers in a file, with a version, a checksum, and the settings that tell whose they are: what a
+/// [`Run`](crate::Run) keeps its moments in, for other long work to do the same.
+///
+/// ```
+/// use ratiocv_threads::{CheckpointFile, Error, Fault};
+/// let folder = tempfile::tempdir()?;
+/// let file = |seed: u64| CheckpointFile::new(folder.path().join("work"), vec![("the seed".into(), seed.to_string())]);
+/// assert_eq!(file(1).load()?, None); // there is none yet
+/// file(1).save(&[1, 2, 3])?;
+/// assert_eq!(file(1).load()?, Some(vec![1, 2, 3]));
+/// assert!(matches!(file(2).load(), Err(Error::Checkpoint { fault: Fault::OtherRun { .. }, .. })));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct CheckpointFile {
+    path: PathBuf,
+    settings: Vec<(String, String)>,
 }
 
-impl Checkpoint {
-    /// How far the run got; `None` if there is no file yet.
-    pub(crate) fn load<M: Save + Moments>(&self, empty: impl Fn() -> M) -> Result<Option<MergeTree<M>>, Error> {
+impl CheckpointFile {
+    /// The file `path` of work with these settings, names and values, in any order.
+    pub fn new(path: impl Into<PathBuf>, settings: Vec<(String, String)>) -> Self {
+        Self { path: path.into(), settings }
+    }
+
+    /// What was saved; `None` if there is no file yet.
+    ///
+    /// # Errors
+    /// [`Error::Checkpoint`] if it cannot be read, is truncated, damaged, no checkpoint, or of other settings.
+    pub fn load(&self) -> Result<Option<Vec<u64>>, Error> {
         let bytes = match self.read() {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(source) => return Err(self.error(Fault::Io { doing: "read it", source })),
         };
-        decoded(&bytes, &self.identity, empty).map(Some).map_err(|fault| self.error(fault))
+        decoded(&bytes, &self.settings).map(Some).map_err(|fault| self.error(fault))
     }
 
     /// Replaces the file: whenever the process is killed, there is the old one or the new one.
-    pub(crate) fn save<M: Save + Clone>(&self, tree: &MergeTree<M>) -> Result<(), Error> {
-        let written = self.replace(&encoded(&self.identity, tree));
+    ///
+    /// # Errors
+    /// [`Error::Checkpoint`] if it cannot be written; then the old one stays.
+    pub fn save(&self, words: &[u64]) -> Result<(), Error> {
+        let written = self.replace(&encoded(&self.settings, words));
         written.map_err(|source| self.error(Fault::Io { doing: "write it", source }))
     }
 
-    fn error(&self, fault: Fault) -> Error {
+    /// That `fault` is wrong with it.
+    pub fn error(&self, fault: Fault) -> Error {
         Error::Checkpoint { path: self.path.clone(), fault }
     }
 

@@ -1,7 +1,6 @@
 //! Which run a checkpoint is of.
 
 use crate::chunks::stream;
-use crate::error::Fault;
 use crate::integrate::CHUNK;
 use ratiocv_core::moments::Save;
 use ratiocv_core::{Auxiliaries, Draw, Integrals, Integrand, Lanes, Problem, Proposal, Reads};
@@ -57,20 +56,6 @@ impl Identity {
         setting("the fingerprint", format!("{fingerprint:?}"));
         setting("the checksum of the first draws", first_draws(problem, draws, seed));
         Self { draws, settings }
-    }
-
-    /// Whether `file` has the same settings.
-    pub(crate) fn check(&self, file: &[(String, String)]) -> Result<(), Fault> {
-        let value = |name: &String, of: &[(String, String)]| {
-            of.iter().find(|(other, _)| other == name).map_or_else(|| "not set".to_owned(), |(_, value)| value.clone())
-        };
-        for (name, _) in self.settings.iter().chain(file) {
-            let (here, file) = (value(name, &self.settings), value(name, file));
-            if here != file {
-                return Err(Fault::OtherRun { setting: name.clone(), here, file });
-            }
-        }
-        Ok(())
     }
 }
 

@@ -1,8 +1,10 @@
-//! Runs outlive their processes: the merged chunks of a run in a file.
+//! Work outlives its process: what was done, in a file.
 
 mod file;
 mod format;
 mod identity;
+mod tree;
 
-pub(crate) use file::Checkpoint;
+pub use file::CheckpointFile;
 pub(crate) use identity::Identity;
+pub(crate) use tree::Checkpoint;
