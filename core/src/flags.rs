@@ -101,6 +101,12 @@ impl Flags {
         self.0 & Self::FALL_BACK.0 != 0
     }
 
+    /// A bit for each flag that is set, for images and files of flags; which bit is whose is the order of
+    /// the table above in this version, and may be another one in the next.
+    pub const fn bits(self) -> u32 {
+        self.0
+    }
+
     /// The names of the flags that are set.
     pub fn names(self) -> impl Iterator<Item = &'static str> {
         Self::ALL.iter().filter(move |(flag, _)| self.contains(*flag)).map(|(_, name)| *name)

@@ -8,6 +8,7 @@ use clap::{Args, Parser, Subcommand};
 use ratiocv_core::{Defensive, Plain};
 use ratiocv_report::catalogue::Method;
 use ratiocv_report::problems::Problem;
+use ratiocv_scene::{Layer, LightChoice, Mixture};
 use std::path::PathBuf;
 
 const EXIT_CODES: &str = "\
@@ -43,6 +44,13 @@ Examples:
   ratiocv estimate draws.csv --estimator hartley_ross --estimator defensive_mickey --format json
   renderer | ratiocv estimate - --on-bad-draw skip";
 
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  ratiocv render S1 --out s1.png                      a built-in scene (ratiocv list)
+  ratiocv render scene.xml --spp 256 --out a.exr --out a.png --layer error
+  ratiocv render scene.xml --error 0.02 --save a.ratiocv --out a.exr
+  ratiocv render S2 --explain                         what the scene does not need";
+
 /// Which estimator gives the least error for your run time? Ratio control variates, measured.
 ///
 /// Without a command: report.
@@ -64,7 +72,10 @@ pub enum Command {
     /// Measure error against run time on problems whose answers are known
     #[command(after_help = EXIT_CODES)]
     Report(ReportArguments),
-    /// List the problems and the estimators
+    /// Render a scene
+    #[command(after_help = format!("{RENDER_EXAMPLES}\n\n{EXIT_CODES}"))]
+    Render(RenderArguments),
+    /// List the problems, the scenes and the estimators
     #[command(after_help = EXIT_CODES)]
     List,
     /// Apply every estimator to draws of your own
@@ -125,6 +136,122 @@ pub struct EstimateArguments {
     pub on_bad_draw: OnBadDraw,
 }
 
+/// Options of `render`.
+#[derive(Clone, Debug, Args)]
+pub struct RenderArguments {
+    /// A Mitsuba 3 scene file, or the name of a built-in scene
+    pub scene: String,
+    /// Where the image goes, as FILE.exr (linear) or FILE.png (sRGB) (repeatable)
+    #[arg(long, value_name = "FILE")]
+    pub out: Vec<PathBuf>,
+    /// How pixels are estimated
+    #[arg(long, value_name = "NAME", value_parser = pixel_methods(), default_value = "defensive_ratio")]
+    #[arg(hide_possible_values = true)]
+    pub estimator: ratiocv_scene::Method,
+    /// Weight of the defensive estimators, at least 0 and below 1 [default: 0.01]
+    #[arg(long, value_name = "W", value_parser = weight, allow_negative_numbers = true)]
+    pub defensive: Option<f64>,
+    /// Samples per pixel [default: those of the scene]
+    #[arg(long, value_name = "N", group = "budget")]
+    pub spp: Option<core::num::NonZeroU64>,
+    /// Render for so many seconds
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, group = "budget")]
+    pub time: Option<f64>,
+    /// Sample each pixel until its standard error is this part of its radiance
+    #[arg(long, value_name = "TARGET", value_parser = relative_error, group = "budget")]
+    pub error: Option<f64>,
+    /// Seed; the same seed gives the same image, for any number of threads
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<core::num::NonZeroUsize>,
+    /// What each channel, left alone, would choose lights by
+    #[arg(long, value_enum, default_value_t = Lights::Local)]
+    pub lights: Lights,
+    /// The choice that is made for all channels
+    #[arg(long, value_enum, default_value_t = Mixed::L2)]
+    pub mixture: Mixed,
+    /// Write this too, beside each image, as FILE-error.exr for example (repeatable)
+    #[arg(long = "layer", value_name = "LAYER", value_enum)]
+    pub layers: Vec<LayerName>,
+    /// Print what the scene does not need and is left out; without --out, nothing else
+    #[arg(long)]
+    pub explain: bool,
+    /// Leave out what is not supported, with a warning
+    #[arg(long)]
+    pub lenient: bool,
+    /// Keep the render in a file, to go on with --resume
+    #[arg(long, value_name = "FILE")]
+    pub save: Option<PathBuf>,
+    /// Go on with the render in a file
+    #[arg(long, value_name = "FILE")]
+    pub resume: Option<PathBuf>,
+}
+
+/// See [`LightChoice`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Lights {
+    /// All alike
+    Uniform,
+    /// By power
+    Power,
+    /// By power, distance and cosine
+    Local,
+}
+
+/// See [`Mixture`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Mixed {
+    /// By luminance
+    Luminance,
+    /// By the root of the sum of the channels' squares
+    L2,
+    /// The mean of the channels' probabilities
+    Uniform,
+}
+
+/// See [`Layer`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum LayerName {
+    /// Standard errors
+    Error,
+    /// A colour for each set of flags; in EXR, their bits
+    Flags,
+    /// The exponents of a regression ratio
+    Alpha,
+}
+
+impl From<Lights> for LightChoice {
+    fn from(lights: Lights) -> Self {
+        match lights {
+            Lights::Uniform => Self::Uniform,
+            Lights::Power => Self::Power,
+            Lights::Local => Self::Local,
+        }
+    }
+}
+
+impl From<Mixed> for Mixture {
+    fn from(mixed: Mixed) -> Self {
+        match mixed {
+            Mixed::Luminance => Self::Luminance,
+            Mixed::L2 => Self::L2,
+            Mixed::Uniform => Self::Uniform,
+        }
+    }
+}
+
+impl From<LayerName> for Layer {
+    fn from(name: LayerName) -> Self {
+        match name {
+            LayerName::Error => Self::Error,
+            LayerName::Flags => Self::Flags,
+            LayerName::Alpha => Self::Alpha,
+        }
+    }
+}
+
 impl EstimateArguments {
     /// The estimators asked for, in the catalogue's order; all if none is named.
     pub fn methods(&self) -> Vec<Method> {
@@ -142,6 +269,18 @@ fn methods() -> impl TypedValueParser<Value = Method> {
 fn problems() -> impl TypedValueParser<Value = Problem> {
     let values = Problem::all().map(|problem| PossibleValue::new(problem.id()).help(problem.about()));
     PossibleValuesParser::new(values).try_map(|id| Problem::from_id(&id).ok_or("there is no such problem"))
+}
+
+/// Estimators of pixels.
+fn pixel_methods() -> impl TypedValueParser<Value = ratiocv_scene::Method> {
+    let values = ratiocv_scene::Method::all().map(|method| PossibleValue::new(method.name()).help(method.summary()));
+    PossibleValuesParser::new(values.chain([PossibleValue::new("plain").hide(true)]))
+        .try_map(|name| ratiocv_scene::Method::named(&name).ok_or("there is no such estimator"))
+}
+
+fn relative_error(text: &str) -> Result<f64, String> {
+    let error: f64 = text.parse().map_err(|_| "it must be a number, such as 0.02".to_owned())?;
+    if error > 0.0 && error.is_finite() { Ok(error) } else { Err("it must be above 0".into()) }
 }
 
 fn weight(text: &str) -> Result<f64, String> {

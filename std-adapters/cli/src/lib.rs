@@ -1,4 +1,4 @@
-//! The `ratiocv` command: `report`, `list` and `estimate`.
+//! The `ratiocv` command: `report`, `render`, `list` and `estimate`.
 //!
 //! `estimate` is a pipe of small parts: [`rows`] cuts text into fields, [`columns`] gives the fields
 //! their meaning, [`number`] reads one, [`intake`] streams draws into accumulators, [`verdict`] turns
@@ -15,6 +15,7 @@ pub mod list;
 pub mod number;
 pub mod output;
 pub mod progress;
+pub mod render;
 pub mod report;
 pub mod rows;
 pub mod style;

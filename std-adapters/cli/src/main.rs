@@ -2,7 +2,7 @@
 
 use clap::Parser;
 use ratiocv_cli::arguments::{Arguments, Command};
-use ratiocv_cli::{estimate, list, report, style};
+use ratiocv_cli::{estimate, list, render, report, style};
 use std::io::{BufWriter, IsTerminal, Write, stderr, stdout};
 use std::process::ExitCode;
 
@@ -14,6 +14,7 @@ fn main() -> ExitCode {
     let done = match command {
         None => report::run(&report, bold, &mut out),
         Some(Command::Report(report)) => report::run(&report, bold, &mut out),
+        Some(Command::Render(arguments)) => render::run(&arguments, &mut out, &mut notes),
         Some(Command::List) => list::run(&mut out),
         Some(Command::Estimate(arguments)) => estimate::run(&arguments, &mut out, &mut notes),
     };

@@ -21,6 +21,24 @@ pub fn of_reading(bytes: Option<u64>) -> ProgressBar {
     bar
 }
 
+/// A bar for a render. Hidden unless stderr is a terminal.
+pub fn of_rendering() -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {percent:>3} %  {elapsed}, {eta} left") {
+        bar.set_style(style);
+    }
+    if !bar.is_hidden() {
+        bar.enable_steady_tick(Duration::from_millis(200));
+    }
+    bar
+}
+
+/// Moves the bar to `done` of `of`.
+pub fn tell(bar: &ProgressBar, done: u64, of: u64) {
+    bar.set_length(of);
+    bar.set_position(done);
+}
+
 /// A bar for the measurements of a report.
 #[derive(Debug)]
 pub struct OfMeasuring(ProgressBar);

@@ -25,6 +25,7 @@ mod needs;
 mod path;
 mod planted;
 mod random;
+mod render;
 mod scene;
 
 pub use colour::Colour;
@@ -36,4 +37,7 @@ pub use input::{BuiltIn, Error, Leniency, Warning};
 pub use light::{LightChoice, Mixture};
 pub use needs::{Needs, Options};
 pub use path::{BLOCK, Samples, Technique, Term};
+pub use render::{
+    Budget, Frame, Image, Layer, Method, OnPixel, Pixel, PixelEstimate, Render, RenderError, Rendered, Stopped, Visitor, Written, write,
+};
 pub use scene::Scene;
