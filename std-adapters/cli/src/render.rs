@@ -3,7 +3,7 @@
 use crate::arguments::RenderArguments;
 use crate::fault::Fault;
 use crate::progress;
-use crate::words::count_of;
+use crate::words::counted;
 use core::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use core::time::Duration;
 use ratiocv_scene::{
@@ -168,7 +168,7 @@ fn summary(rendered: &Rendered, out: &mut dyn Write) -> Result<(), Fault> {
     let seconds = rendered.time.as_secs_f64();
     let unreached = rendered.image.samples.iter().filter(|samples| **samples == 0).count();
     if rendered.stopped == Stopped::Cancelled {
-        writeln!(out, "stopped before its end; {} without samples", count_of(unreached as u64, "pixel"))?;
+        writeln!(out, "stopped before its end; {} without samples", counted(unreached as u64, "pixel"))?;
     }
     writeln!(
         out,
@@ -178,7 +178,7 @@ fn summary(rendered: &Rendered, out: &mut dyn Write) -> Result<(), Fault> {
     )?;
     let unknown = rendered.image.radiance.iter().filter(|rgb| rgb.iter().any(|x| !x.is_finite())).count() - unreached;
     if unknown > 0 {
-        writeln!(out, "{} without a finite value", count_of(unknown as u64, "pixel"))?;
+        writeln!(out, "{} without a finite value", counted(unknown as u64, "pixel"))?;
     }
     let lit = rendered.image.radiance.iter().flatten().any(|x| *x != 0.0);
     if !lit {
