@@ -56,7 +56,10 @@ pub fn run(arguments: &RenderArguments, out: &mut dyn Write, notes: &mut dyn Wri
     summary(&rendered, out)?;
     out.flush()?;
     if let Some(error) = &rendered.not_saved {
-        return Err(Fault::data(format!("the render was not saved: {error}"), "the images are written; save elsewhere"));
+        return Err(Fault::data(
+            format!("the render was not saved: {error}"),
+            "the images are written; save elsewhere",
+        ));
     }
     written
 }

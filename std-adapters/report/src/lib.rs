@@ -59,6 +59,7 @@ mod measure;
 mod output;
 pub mod problems;
 mod provenance;
+pub mod scene;
 
 pub use group::Group;
 pub use measure::{

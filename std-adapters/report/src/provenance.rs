@@ -57,6 +57,14 @@ impl Provenance {
     }
 }
 
+impl Provenance {
+    /// Of a scene's report that starts now, on all threads of the pool.
+    pub(crate) fn of_scene(seed: u64, quick: bool) -> Self {
+        let options = Options { seed, quick, ..Options::default() };
+        Self { budget_seconds: f64::NAN, ..Self::now(&options, rayon::current_num_threads()) }
+    }
+}
+
 /// The first processor's name, as Linux gives it.
 fn cpu() -> String {
     let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();

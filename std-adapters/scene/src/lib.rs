@@ -38,6 +38,7 @@ pub use light::{LightChoice, Mixture};
 pub use needs::{Needs, Options};
 pub use path::{BLOCK, Samples, Technique, Term};
 pub use render::{
-    Budget, Frame, Image, Layer, Method, OnPixel, Pixel, PixelEstimate, Render, RenderError, Rendered, Stopped, Visitor, Written, write,
+    Budget, Frame, Image, Layer, Method, OnPixel, Pixel, PixelEstimate, Render, RenderError, Rendered, Stopped,
+    Visitor, Written, write,
 };
 pub use scene::Scene;

@@ -9,6 +9,7 @@ mod page;
 mod picture;
 mod plots;
 mod poor;
+mod scene;
 mod selection;
 mod summary;
 mod table;

@@ -10,7 +10,7 @@ use crate::output::words::versus;
 use crate::{MethodReport, ProblemReport, Report};
 use core::fmt::Write;
 
-const STYLE: &str = include_str!("page.css");
+pub(super) const STYLE: &str = include_str!("page.css");
 
 /// Enough estimators to tell the story and few enough to be told apart: Quenouille, Beale, Tin and the jackknife
 /// lie on the ratio's curve wherever errors, not biases, are drawn, and the other fitted ones on the difference's.
@@ -205,6 +205,6 @@ fn foot(page: &mut String, report: &Report) {
     );
 }
 
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

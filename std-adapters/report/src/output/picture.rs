@@ -7,7 +7,7 @@ use std::io;
 /// A picture of 8-bit sRGB pixels, row by row.
 pub(super) struct Picture {
     /// The file's name, without its extension.
-    pub(super) name: &'static str,
+    pub(super) name: String,
     /// What is to be seen.
     pub(super) title: String,
     width: usize,
@@ -17,13 +17,13 @@ pub(super) struct Picture {
 impl Picture {
     /// Of `colours`, from 0 to 1, in rows of `width`.
     pub(super) fn new(
-        name: &'static str,
+        name: impl Into<String>,
         title: impl Into<String>,
         width: usize,
         colours: impl Iterator<Item = [f64; 3]>,
     ) -> Self {
         let byte = |share: f64| libm::round(255.0 * share.clamp(0.0, 1.0)) as u8;
-        Self { name, title: title.into(), width, pixels: colours.flat_map(|colour| colour.map(byte)).collect() }
+        Self { name: name.into(), title: title.into(), width, pixels: colours.flat_map(|colour| colour.map(byte)).collect() }
     }
 
     /// The file.

@@ -27,7 +27,9 @@ impl fmt::Display for RenderError {
         match self {
             Self::Scene(error) => error.fmt(f),
             Self::Checkpoint(error) => error.fmt(f),
-            Self::Mismatch => f.write_str("the images differ in size or in what was kept: merge images of one scene and one method"),
+            Self::Mismatch => {
+                f.write_str("the images differ in size or in what was kept: merge images of one scene and one method")
+            }
             Self::Setting { setting, needed } => write!(f, "{setting} must be {needed}"),
         }
     }

@@ -4,8 +4,8 @@ use crate::colour::Colour;
 use core::fmt::Debug;
 use ratiocv_core::moments::{Accumulate, Merge, Moments, Save};
 use ratiocv_core::{
-    Choose, Defensive, Draw, Estimate, Estimator, Fit, HartleyRoss, Integrals, Lanes, Mickey, Plain, RatioOfMeans, Reads,
-    RegressionRatio, Spectrum, Tin,
+    Choose, Defensive, Draw, Estimate, Estimator, Fit, HartleyRoss, Integrals, Lanes, Mickey, Plain, RatioOfMeans,
+    Reads, RegressionRatio, Spectrum, Tin,
 };
 
 /// The defensive weight unless another is given: 5 % of the gain where the auxiliary is good, and no
@@ -176,7 +176,10 @@ pub trait OnPixel<C: Colour>: Sync {
 }
 
 /// What an estimator keeps of a term.
-pub trait Term<C: Colour>: Accumulate<Draw<C>> + Moments<Lanes = C> + Merge + Save + Copy + Debug + Send + Sync {}
+pub trait Term<C: Colour>:
+    Accumulate<Draw<C>> + Moments<Lanes = C> + Merge + Save + Copy + Debug + Send + Sync
+{
+}
 
 impl<C: Colour, M> Term<C> for M where
     M: Accumulate<Draw<C>> + Moments<Lanes = C> + Merge + Save + Copy + Debug + Send + Sync

@@ -99,7 +99,8 @@ impl<C: Colour, M: Term<C>> Pixel<C, M> {
             plain.clear();
             plain.extend((0..count).filter(own).map(|i| samples.plain[i]));
             pairs.clear();
-            pairs.extend(samples.pairs.iter().map(|pairs| (0..count).filter(own).map(|i| pairs[i]).collect::<Vec<_>>()));
+            pairs
+                .extend(samples.pairs.iter().map(|pairs| (0..count).filter(own).map(|i| pairs[i]).collect::<Vec<_>>()));
             group.add(&plain, pairs.iter());
         }
     }

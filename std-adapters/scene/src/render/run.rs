@@ -395,17 +395,25 @@ impl<C: Colour, E: OnPixel<C>> Work<'_, C, E> {
     fn mark_finished(&self, frame: &Frame<C, E::Term>, finished: &mut [bool]) {
         match self.render.budget {
             Budget::Samples(samples) => {
-                finished.iter_mut().zip(&frame.pixels).for_each(|(finished, pixel)| *finished = pixel.count() >= samples);
+                finished
+                    .iter_mut()
+                    .zip(&frame.pixels)
+                    .for_each(|(finished, pixel)| *finished = pixel.count() >= samples);
             }
             Budget::Time(time) => {
                 let out = self.begun.elapsed() >= time;
-                finished.iter_mut().zip(&frame.pixels).for_each(|(finished, pixel)| *finished = out && pixel.count() > 0);
+                finished
+                    .iter_mut()
+                    .zip(&frame.pixels)
+                    .for_each(|(finished, pixel)| *finished = out && pixel.count() > 0);
             }
             Budget::Error(target) => {
                 let estimates: Vec<PixelEstimate> =
                     frame.pixels.par_iter().map(|pixel| pixel.estimate(self.estimator, &[])).collect();
                 let size = |x: &[f64; 3]| x[..C::LANES].iter().map(|x| x * x).sum::<f64>().sqrt();
-                let floor = estimates.iter().map(|estimate| size(&estimate.value)).sum::<f64>() / estimates.len() as f64 / 100.0;
+                let floor = estimates.iter().map(|estimate| size(&estimate.value)).sum::<f64>()
+                    / estimates.len() as f64
+                    / 100.0;
                 for ((finished, pixel), estimate) in finished.iter_mut().zip(&frame.pixels).zip(&estimates) {
                     let (error, value) = (size(&estimate.std_error), size(&estimate.value));
                     // A pixel that saw no light has no error bar; it is black for all that is known.
@@ -427,8 +435,7 @@ impl<C: Colour, E: OnPixel<C>> Work<'_, C, E> {
 
     /// A new frame, or the one that is to be resumed.
     fn frame(&self) -> Result<Frame<C, E::Term>, RenderError> {
-        let mut frame =
-            Frame::new(self.scene.size(), self.scene.terms().len(), self.estimator.empty(), self.errors());
+        let mut frame = Frame::new(self.scene.size(), self.scene.terms().len(), self.estimator.empty(), self.errors());
         let Some(path) = &self.render.resume else { return Ok(frame) };
         let file = self.file(path);
         let Some(words) = file.load()? else {

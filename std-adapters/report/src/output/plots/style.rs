@@ -45,6 +45,9 @@ pub(crate) fn look(id: &str) -> Look {
         "hartley_ross" => (VERMILLION, (1, 0), Mark::Square),
         "difference" => (ORANGE, (1, 0), Mark::Cross),
         "mickey" => (GREEN, (1, 0), Mark::Up),
+        "regression_ratio" => (SKY, (1, 0), Mark::Diamond),
+        "shared_regression_ratio" => (SKY, (6, 3), Mark::Diamond),
+        "choose" => (PURPLE, (1, 0), Mark::Plus),
         _ => (BLACK, (4, 4), Mark::None),
     };
     Look { colour, dash, mark }

@@ -1,0 +1,26 @@
+//! Error against run time on a scene.
+
+use crate::output::plots::axis::Scale;
+use crate::output::plots::look;
+use crate::output::plots::panel::{Panel, Series};
+use crate::scene::SceneReport;
+
+/// RMSE over the time of one image, of every method.
+pub(crate) fn scene_error(report: &SceneReport) -> String {
+    let series = report.curves.iter().map(|curve| {
+        let mut series = Series::new(look(curve.method.name()));
+        for point in curve.points.iter().filter(|point| point.mse > 0.0) {
+            series.line.push((point.seconds, libm::sqrt(point.mse)));
+            series.points.push((point.seconds, libm::sqrt(point.mse), true));
+        }
+        series
+    });
+    Panel {
+        title: format!("Error against run time: {}", report.name),
+        x: ("run time of one image", Scale::LogSeconds),
+        y: ("RMSE", Scale::Log),
+        floor: vec![],
+        series: series.collect(),
+    }
+    .svg()
+}
