@@ -96,6 +96,15 @@ pub struct ReportArguments {
     /// Only this estimator, beside mc (repeatable; see `ratiocv list`)
     #[arg(long = "estimator", value_name = "NAME", value_parser = methods(), hide_possible_values = true)]
     pub estimators: Vec<Method>,
+    /// Render a scene by every method instead: a Mitsuba 3 file, or the name of a built-in scene
+    #[arg(long, value_name = "NAME|FILE", conflicts_with_all = ["problems", "estimators", "budget", "all"])]
+    pub scene: Option<String>,
+    /// What each channel, left alone, would choose the scene's lights by
+    #[arg(long, value_enum, default_value_t = Lights::Local, requires = "scene")]
+    pub lights: Lights,
+    /// The choice of lights that is made for all channels
+    #[arg(long, value_enum, default_value_t = Mixed::L2, requires = "scene")]
+    pub mixture: Mixed,
     /// Seed of the random draws; the same seed gives the same errors, for any number of threads
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
@@ -108,7 +117,7 @@ pub struct ReportArguments {
     /// Print every estimator; else plain Monte Carlo and the best of each kind, or those of --estimator
     #[arg(long)]
     pub all: bool,
-    /// Directory for index.html, report.json and report.csv
+    /// Directory for the page, the numbers and the pictures
     #[arg(long, value_name = "DIR", default_value = "report")]
     pub out: PathBuf,
 }

@@ -18,6 +18,7 @@ pub mod progress;
 pub mod render;
 pub mod report;
 pub mod rows;
+pub mod scene;
 pub mod style;
 pub mod verdict;
 pub mod words;

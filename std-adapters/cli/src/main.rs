@@ -12,8 +12,8 @@ fn main() -> ExitCode {
     let mut out = BufWriter::new(stdout().lock());
     let mut notes = stderr();
     let done = match command {
-        None => report::run(&report, bold, &mut out),
-        Some(Command::Report(report)) => report::run(&report, bold, &mut out),
+        None => report::run(&report, bold, &mut out, &mut notes),
+        Some(Command::Report(report)) => report::run(&report, bold, &mut out, &mut notes),
         Some(Command::Render(arguments)) => render::run(&arguments, &mut out, &mut notes),
         Some(Command::List) => list::run(&mut out),
         Some(Command::Estimate(arguments)) => estimate::run(&arguments, &mut out, &mut notes),

@@ -3,12 +3,11 @@
 use crate::arguments::RenderArguments;
 use crate::fault::Fault;
 use crate::progress;
+use crate::scene::{read, use_threads};
 use crate::words::counted;
 use core::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use core::time::Duration;
-use ratiocv_scene::{
-    Budget, BuiltIn, Description, Layer, Leniency, Needs, Options, Render, RenderError, Rendered, Stopped, Written,
-};
+use ratiocv_scene::{Budget, Description, Layer, Needs, Options, Render, RenderError, Rendered, Stopped, Written};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -27,11 +26,8 @@ pub fn run(arguments: &RenderArguments, out: &mut dyn Write, notes: &mut dyn Wri
     for path in &arguments.out {
         can_be_written(path)?;
     }
-    let description = read(&arguments.scene, arguments.lenient, notes)?;
-    if let Some(threads) = arguments.threads {
-        // Of this process, which renders once; a pool that is there already stays.
-        let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global();
-    }
+    let (_, description) = read(&arguments.scene, arguments.lenient, notes)?;
+    use_threads(arguments.threads);
     let render = configured(arguments, &description);
     if arguments.explain {
         explain(&render.needs(), out)?;
@@ -89,27 +85,6 @@ fn configured<'a>(arguments: &RenderArguments, description: &'a Description) -> 
         render = render.resume(path);
     }
     render
-}
-
-/// A file, or a built-in scene.
-fn read(scene: &str, lenient: bool, notes: &mut dyn Write) -> Result<Description, Fault> {
-    let leniency = if lenient { Leniency::Lenient } else { Leniency::Strict };
-    let (description, warnings) = match BuiltIn::named(scene) {
-        Some(built_in) if !Path::new(scene).exists() => Description::parse(built_in.xml, built_in.name, leniency),
-        _ => Description::read(Path::new(scene), leniency),
-    }
-    .map_err(|error| {
-        let remedy = match error.is_unsupported() {
-            true => "--lenient leaves out what is not supported",
-            false => "give a scene file, or a built-in scene (ratiocv list)",
-        };
-        Fault::data(error.to_string(), remedy)
-    })?;
-    for warning in warnings {
-        // A closed stderr is no reason to stop.
-        let _ = writeln!(notes, "warning: {warning}");
-    }
-    Ok(description)
 }
 
 /// Before the minutes of rendering, not after them.

@@ -23,7 +23,12 @@ impl Picture {
         colours: impl Iterator<Item = [f64; 3]>,
     ) -> Self {
         let byte = |share: f64| libm::round(255.0 * share.clamp(0.0, 1.0)) as u8;
-        Self { name: name.into(), title: title.into(), width, pixels: colours.flat_map(|colour| colour.map(byte)).collect() }
+        Self {
+            name: name.into(),
+            title: title.into(),
+            width,
+            pixels: colours.flat_map(|colour| colour.map(byte)).collect(),
+        }
     }
 
     /// The file.

@@ -121,12 +121,13 @@ pub fn run(
     let mut done = 1;
     for (samples, replicates) in steps {
         // Methods take turns, so that what disturbs the machine disturbs all alike.
-        let mut measured = vec![Vec::new(); methods.len()];
+        let mut measured = methods.iter().map(|_| Vec::new()).collect::<Vec<_>>();
         for replicate in 0..*replicates {
             for (method, measured) in methods.iter().zip(&mut measured) {
                 progress.report(done, total, method.name());
                 let rendered = render(description, settings, *method, *samples, settings.seed + replicate)?;
-                measured.push((reference.compare(&rendered.image), rendered.time.as_secs_f64()));
+                let (mse, relative) = reference.compare(&rendered.image);
+                measured.push(Measured { mse, relative, seconds: rendered.time.as_secs_f64() });
             }
         }
         done += methods.len() as u64;
@@ -160,19 +161,26 @@ fn render(
     Ok(render.budget(Budget::Samples(samples)).seed(seed).run()?)
 }
 
-fn point(samples: u64, measured: &[((f64, f64), f64)]) -> ScenePoint {
+/// Of one image.
+struct Measured {
+    mse: f64,
+    relative: f64,
+    seconds: f64,
+}
+
+fn point(samples: u64, measured: &[Measured]) -> ScenePoint {
     let replicates = measured.len() as f64;
-    let mean = |of: &dyn Fn(&((f64, f64), f64)) -> f64| measured.iter().map(of).sum::<f64>() / replicates;
-    let mse = mean(&|((mse, _), _)| *mse);
-    let squares: f64 = measured.iter().map(|((own, _), _)| (own - mse) * (own - mse)).sum();
-    let mut seconds: Vec<f64> = measured.iter().map(|(_, seconds)| *seconds).collect();
+    let mean = |of: &dyn Fn(&Measured) -> f64| measured.iter().map(of).sum::<f64>() / replicates;
+    let mse = mean(&|image| image.mse);
+    let squares: f64 = measured.iter().map(|image| (image.mse - mse) * (image.mse - mse)).sum();
+    let mut seconds: Vec<f64> = measured.iter().map(|image| image.seconds).collect();
     seconds.sort_by(f64::total_cmp);
     ScenePoint {
         samples,
         replicates: measured.len() as u64,
         mse,
         mse_std_error: libm::sqrt(squares / (replicates - 1.0) / replicates),
-        relative_mse: mean(&|((_, relative), _)| *relative),
+        relative_mse: mean(&|image| image.relative),
         seconds: seconds[seconds.len() / 2],
         gain: f64::NAN,
         efficiency: f64::NAN,

@@ -1,7 +1,7 @@
 //! `scene.csv` and `scene.json`.
 
-use crate::scene::SceneReport;
 use crate::Provenance;
+use crate::scene::SceneReport;
 use serde::Serialize;
 use std::io;
 

@@ -53,7 +53,7 @@ fn verdict(page: &mut String, report: &SceneReport) {
         } else {
             "No method is better than plain Monte Carlo here by more than 5 % at equal time.".to_owned()
         };
-        let _ = write!(page, "<p class=\"says\">{says}</p>\n");
+        let _ = writeln!(page, "<p class=\"says\">{says}</p>");
     }
 }
 
@@ -64,7 +64,7 @@ fn images(page: &mut String, report: &SceneReport) {
          <div class=\"panels\">\n"
     );
     for (picture, caption) in pictures(report) {
-        let _ = write!(page, "<figure>{}<figcaption>{caption}</figcaption></figure>\n", picture.img());
+        let _ = writeln!(page, "<figure>{}<figcaption>{caption}</figcaption></figure>", picture.img());
     }
     page.push_str("</div>\n");
 }
