@@ -2,13 +2,19 @@
 
 use crate::support::{fails_with, file, ratiocv};
 use ratiocv_report::catalogue::Method;
+use ratiocv_scene::BuiltIn;
 use std::path::PathBuf;
 
 #[test]
 fn help_has_examples_and_exit_codes() {
-    for arguments in
-        [&["--help"][..], &["report", "--help"], &["list", "--help"], &["estimate", "--help"], &["estimate", "-h"]]
-    {
+    for arguments in [
+        &["--help"][..],
+        &["report", "--help"],
+        &["list", "--help"],
+        &["render", "--help"],
+        &["estimate", "--help"],
+        &["estimate", "-h"],
+    ] {
         let run = ratiocv(arguments, "");
         assert_eq!((run.code, run.err.as_str()), (0, ""));
         assert!(
@@ -30,7 +36,11 @@ fn help_has_examples_and_exit_codes() {
 fn list_has_a_line_for_everything() {
     let run = ratiocv(&["list"], "");
     assert_eq!((run.code, run.err.as_str()), (0, ""));
-    let (problems, estimators) = run.out.split_once("\nEstimators:\n").expect("two lists");
+    let (problems, rest) = run.out.split_once("\nEstimators:\n").expect("two lists");
+    let (estimators, rest) = rest.split_once("\nScenes:\n").expect("three lists");
+    let (scenes, pixels) = rest.split_once("\nEstimators of pixels:\n").expect("four lists");
+    assert!(scenes.contains("\n  S1k ") && scenes.lines().count() == BuiltIn::ALL.len(), "{scenes}");
+    assert!(pixels.lines().zip(ratiocv_scene::Method::all()).all(|(line, method)| line.contains(method.name())));
     let problems: Vec<_> = problems.lines().skip(1).collect();
     for id in ["three-lights", "spectrum-32", "peaks-4d"] {
         assert!(problems.iter().any(|line| line.starts_with(&format!("  {id} "))), "{id} in {problems:?}");

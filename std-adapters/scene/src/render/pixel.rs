@@ -2,6 +2,7 @@
 
 use crate::colour::Colour;
 use crate::path::Samples;
+use crate::planted::planted;
 use crate::render::method::{OnPixel, Term};
 use ratiocv_core::moments::{Accumulate, Mean, Merge, Moments, Save, Variance};
 use ratiocv_core::{Draw, Estimate, Estimator, Flags, Integrals, Plain};
@@ -198,7 +199,7 @@ impl<C: Colour, M: Term<C>> Pixel<C, M> {
             }
             let mean = without.iter().map(|total| total.value[channel]).sum::<f64>() / groups;
             let squares: f64 = without.iter().map(|total| (total.value[channel] - mean).powi(2)).sum();
-            ((groups - 1.0) / groups * squares).sqrt()
+            (planted!("jackknife_of_the_total": groups - 1.0, 1.0) / groups * squares).sqrt()
         })
     }
 }
