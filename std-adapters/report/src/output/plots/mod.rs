@@ -15,7 +15,7 @@ pub(super) use bias::bias;
 pub(super) use error::error;
 pub(super) use functions::{functions, legend as functions_legend};
 pub(super) use paths::bias_of_paths;
-pub(super) use scene::scene_error;
+pub(super) use scene::{drawn, scene_error};
 pub(super) use style::{look, swatch};
 pub(super) use techniques::{techniques, techniques_legend};
 pub(super) use theory::theory;

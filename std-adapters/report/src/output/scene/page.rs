@@ -1,7 +1,7 @@
 //! `scene.html`: one file, nothing loaded from elsewhere.
 
 use crate::output::page::{STYLE, escaped};
-use crate::output::plots::{look, scene_error, swatch};
+use crate::output::plots::{drawn, look, scene_error, swatch};
 use crate::output::scene::images::pictures;
 use crate::scene::SceneReport;
 use core::fmt::Write;
@@ -20,15 +20,13 @@ pub(super) fn page(report: &SceneReport) -> String {
     );
     verdict(&mut page, report);
     images(&mut page, report);
-    let entries: String = report
-        .curves
-        .iter()
+    let entries: String = drawn(report)
         .map(|curve| format!("<li>{}<code>{}</code></li>", swatch(look(curve.method.name())), curve.method.name()))
         .collect();
     let _ = write!(
         page,
         "<h2>Error against run time</h2>\n<p>Left and low is good; black dashes are plain Monte Carlo. Run times are of \
-         the whole image, on all cores. Each mark has four times the samples of the one before.</p>\n\
+         the whole image, on all cores. Each mark has four times the samples of the one before. Of methods that come with and without the defensive auxiliary, the one with it is drawn.</p>\n\
          <ul class=\"legend\">{entries}</ul>\n<div class=\"panels\"><figure>{}</figure></div>\n",
         scene_error(report)
     );
@@ -61,7 +59,7 @@ fn images(page: &mut String, report: &SceneReport) {
     let _ = write!(
         page,
         "<h2>At equal time</h2>\n<p>Each in the time that plain Monte Carlo takes for 64 samples.</p>\n\
-         <div class=\"panels\">\n"
+         <div class=\"images\">\n"
     );
     for (picture, caption) in pictures(report) {
         let _ = writeln!(page, "<figure>{}<figcaption>{caption}</figcaption></figure>", picture.img());
