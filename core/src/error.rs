@@ -102,6 +102,11 @@ pub enum Error {
         /// The size that it has.
         got: usize,
     },
+    /// A draw has a number that is not finite, and was to be refused ([`Checked`](crate::moments::Checked)).
+    NotFinite {
+        /// The draw's number, from 0.
+        draw: u64,
+    },
     /// A flag was raised, and the caller asked for none ([`Estimate::strict`](crate::Estimate::strict)).
     Flagged {
         /// The first channel with a flag.
@@ -164,6 +169,11 @@ impl fmt::Display for Error {
                 f,
                 "{what}: {got}, and must be {needed}: give one accumulator per pixel or pack of pixels, one entry of an \
                  image per pixel and channel, and merge films of the same image"
+            ),
+            Self::NotFinite { draw } => write!(
+                f,
+                "draw {draw} has a number that is not finite: mend the integrand, leave such draws out with Skip, or let \
+                 them be flagged"
             ),
             Self::Flagged { channel, flags } => write!(
                 f,

@@ -40,6 +40,7 @@ mod adaptive;
 #[cfg(feature = "conformance")]
 pub mod conformance;
 mod draw;
+mod environment;
 mod error;
 mod estimate;
 mod estimator;
@@ -65,6 +66,7 @@ pub mod which_estimator {}
 
 pub use adaptive::{AtPosition, ComponentDensities, Grid, GridPoint};
 pub use draw::Draw;
+pub use environment::{FpEnvironment, fp_environment};
 pub use error::Error;
 pub use estimate::{ChannelEstimate, Estimate};
 pub use estimator::{

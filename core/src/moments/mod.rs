@@ -11,6 +11,7 @@
 
 mod accumulate;
 mod blocked;
+mod checked;
 mod comoments;
 mod extremes;
 mod folds;
@@ -29,6 +30,7 @@ mod univariate;
 
 pub use accumulate::{Accumulate, AccumulateSlices, Merge, Moments, Widened};
 pub use blocked::Blocked;
+pub use checked::{Checked, Finite, Refuse, Skip};
 pub use comoments::{Comoments, ComomentsBlock, ComomentsState};
 pub use extremes::{Extremes, ExtremesBlock, ExtremesState, MayHaveTails};
 pub use folds::{Folds, FoldsBlock, FoldsState};
