@@ -196,6 +196,9 @@ pub struct RenderArguments {
     /// Go on with the render in a file
     #[arg(long, value_name = "FILE")]
     pub resume: Option<PathBuf>,
+    /// Add the samples of a file that was saved with another seed (repeatable)
+    #[arg(long, value_name = "FILE:SEED", value_parser = file_and_seed)]
+    pub merge: Vec<(PathBuf, u64)>,
 }
 
 /// See [`LightChoice`].
@@ -285,6 +288,11 @@ fn pixel_methods() -> impl TypedValueParser<Value = ratiocv_scene::Method> {
     let values = ratiocv_scene::Method::all().map(|method| PossibleValue::new(method.name()).help(method.summary()));
     PossibleValuesParser::new(values.chain([PossibleValue::new("plain").hide(true)]))
         .try_map(|name| ratiocv_scene::Method::named(&name).ok_or("there is no such estimator"))
+}
+
+fn file_and_seed(text: &str) -> Result<(PathBuf, u64), String> {
+    let split = text.rsplit_once(':').and_then(|(file, seed)| Some((file, seed.parse().ok()?)));
+    split.map(|(file, seed)| (file.into(), seed)).ok_or_else(|| "give the file and its seed, as in a.ratiocv:2".into())
 }
 
 fn relative_error(text: &str) -> Result<f64, String> {

@@ -84,6 +84,9 @@ fn configured<'a>(arguments: &RenderArguments, description: &'a Description) -> 
     if let Some(path) = &arguments.resume {
         render = render.resume(path);
     }
+    for (path, seed) in &arguments.merge {
+        render = render.merge(path, *seed);
+    }
     render
 }
 

@@ -51,6 +51,11 @@ fn a_render_goes_on_where_it_was_saved() {
     let other = render(&[&scene, "--spp", "128", "--resume", &saved, "--seed", "1", "--out", &out]);
     fails_with(&other, 1, &["the seed is 1 here and 0 in the file", "b.ratiocv"]);
     fails_with(&render(&[&scene, "--resume", &path("none"), "--out", &out]), 1, &["none", "cannot read it"]);
+    let second = path("b2.ratiocv");
+    assert_eq!(render(&[&scene, "--spp", "64", "--seed", "2", "--save", &second, "--out", &out]).code, 0);
+    let run = render(&[&scene, "--spp", "192", "--resume", &saved, "--merge", &format!("{second}:2"), "--out", &out]);
+    assert!(run.code == 0 && run.out.contains("0.000 M samples in"), "128 and 64 samples: {run:?}");
+    fails_with(&render(&[&scene, "--merge", "b2.ratiocv", "--out", &out]), 2, &["--merge", "a.ratiocv:2"]);
     // The image is worth more than the file that it should have been kept in.
     let run = render(&[&scene, "--save", "/nowhere/at/all", "--out", &out]);
     assert!(run.code == 1 && run.out.contains("wrote ") && run.err.contains("/nowhere/at/all"), "{run:?}");

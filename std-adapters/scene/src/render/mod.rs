@@ -3,10 +3,12 @@
 mod error;
 mod frame;
 mod image;
+mod kept;
 mod method;
 mod output;
 mod pixel;
 mod run;
+mod work;
 
 pub use error::RenderError;
 pub use frame::Frame;

@@ -1,32 +1,20 @@
-//! The loop over pixels.
+//! What is to be rendered, and how.
 
 use crate::colour::Colour;
 use crate::description::Description;
 use crate::needs::{Needs, Options};
-use crate::path::{BLOCK, Samples};
 use crate::render::error::RenderError;
-use crate::render::frame::{Extras, Frame};
+use crate::render::frame::Extras;
 use crate::render::image::Image;
 use crate::render::method::{Method, OnPixel, Rgb, Visitor};
-use crate::render::pixel::{Pixel, PixelEstimate};
+use crate::render::work::Work;
 use crate::scene::Scene;
 use core::fmt;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use core::time::Duration;
 use ratiocv_core::Plain;
-use ratiocv_threads::{CheckpointFile, Fault};
-use rayon::prelude::*;
 use std::path::PathBuf;
 use std::time::Instant;
-
-/// Samples of a pixel in one pass of a render whose end is a time.
-const SHORT: usize = 16;
-
-/// A pixel's error bar is not believed before.
-const ENOUGH: u64 = 128;
-
-/// Most samples of a pixel that does not reach the error that is asked for.
-const MOST: u64 = 1 << 16;
 
 /// When a render is done.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,21 +47,23 @@ pub enum Stopped {
 /// # Ok::<(), ratiocv_scene::RenderError>(())
 /// ```
 pub struct Render<'a> {
-    description: &'a Description,
-    options: Options,
-    method: Method,
-    budget: Budget,
-    seed: u64,
-    extras: Extras,
-    progress: Option<&'a (dyn Fn(u64, u64) + Sync)>,
-    cancel: Option<&'a AtomicBool>,
-    save: Option<(PathBuf, Duration)>,
-    resume: Option<PathBuf>,
+    pub(super) description: &'a Description,
+    pub(super) options: Options,
+    pub(super) method: Method,
+    pub(super) budget: Budget,
+    pub(super) seed: u64,
+    pub(super) extras: Extras,
+    pub(super) progress: Option<&'a (dyn Fn(u64, u64) + Sync)>,
+    pub(super) cancel: Option<&'a AtomicBool>,
+    pub(super) save: Option<(PathBuf, Duration)>,
+    pub(super) resume: Option<PathBuf>,
+    /// Files of other seeds.
+    pub(super) merge: Vec<(PathBuf, u64)>,
 }
 
 impl fmt::Debug for Render<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { options, method, budget, seed, extras, save, resume, .. } = self;
+        let Self { options, method, budget, seed, extras, save, resume, merge, .. } = self;
         f.debug_struct("Render")
             .field("options", options)
             .field("method", method)
@@ -82,6 +72,7 @@ impl fmt::Debug for Render<'_> {
             .field("extras", extras)
             .field("save", save)
             .field("resume", resume)
+            .field("merge", merge)
             .finish_non_exhaustive()
     }
 }
@@ -117,6 +108,7 @@ impl<'a> Render<'a> {
             cancel: None,
             save: None,
             resume: None,
+            merge: Vec::new(),
         }
     }
 
@@ -198,12 +190,20 @@ impl<'a> Render<'a> {
         self
     }
 
+    /// Appends the samples in the file `path`, of the same render with another seed, on another machine perhaps. They
+    /// count towards the budget.
+    #[must_use]
+    pub fn merge(mut self, path: impl Into<PathBuf>, seed: u64) -> Self {
+        self.merge.push((path.into(), seed));
+        self
+    }
+
     /// What the scene needs when rendered like this.
     pub fn needs(&self) -> Needs {
         Needs::of(self.description, &self.effective_options())
     }
 
-    fn effective_options(&self) -> Options {
+    pub(super) fn effective_options(&self) -> Options {
         Options { auxiliary: self.method.reads_auxiliaries(), ..self.options }
     }
 
@@ -243,7 +243,8 @@ impl<'a> Render<'a> {
 
     fn with<C: Colour, E: OnPixel<C>>(&self, scene: &Scene<C>, estimator: &E) -> Result<Rendered, RenderError> {
         let work = Work { render: self, scene, estimator, samples: AtomicU64::new(0), begun: Instant::now() };
-        let keeps_all = self.save.is_some() || self.resume.is_some() || self.method.shared_radius() > 0;
+        let files = self.save.is_some() || self.resume.is_some() || !self.merge.is_empty();
+        let keeps_all = files || self.method.shared_radius() > 0;
         let (image, stopped, not_saved) = match self.budget {
             Budget::Samples(samples) if !keeps_all => {
                 let (image, stopped) = work.once(samples);
@@ -261,219 +262,13 @@ impl<'a> Render<'a> {
         })
     }
 
-    fn is_cancelled(&self) -> bool {
+    pub(super) fn is_cancelled(&self) -> bool {
         self.cancel.is_some_and(|flag| flag.load(Relaxed))
     }
 
-    fn tell(&self, done: u64, of: u64) {
+    pub(super) fn tell(&self, done: u64, of: u64) {
         if let Some(callback) = self.progress {
             callback(done.min(of), of);
         }
     }
-}
-
-/// One sitting.
-struct Work<'a, C: Colour, E> {
-    render: &'a Render<'a>,
-    scene: &'a Scene<C>,
-    estimator: &'a E,
-    samples: AtomicU64,
-    begun: Instant,
-}
-
-impl<C: Colour, E: OnPixel<C>> Work<'_, C, E> {
-    fn errors(&self) -> bool {
-        self.render.extras.errors || matches!(self.render.budget, Budget::Error(_))
-    }
-
-    fn pixel(&self) -> Pixel<C, E::Term> {
-        Pixel::new(self.scene.terms().len(), self.estimator.empty(), self.errors())
-    }
-
-    /// Adds the samples from `pixel.count()` on, at most `more`, in blocks of `block`.
-    fn sample(&self, at: [u32; 2], pixel: &mut Pixel<C, E::Term>, block: usize, more: u64, samples: &mut Samples<C>) {
-        let end = pixel.count() + more;
-        while pixel.count() < end {
-            // The last block may be shorter; the next pass goes on with the one after it.
-            let (number, count) = (pixel.count().div_ceil(block as u64), (end - pixel.count()).min(block as u64));
-            self.scene.trace(at, number, count as usize, self.render.seed, samples);
-            pixel.add(samples);
-            self.samples.fetch_add(count, Relaxed);
-        }
-    }
-
-    /// Pixel by pixel: moments of the pixels in flight alone.
-    fn once(&self, count: u64) -> (Image, Stopped) {
-        let [width, height] = self.scene.size();
-        let done = AtomicU64::new(0);
-        let rows: Vec<Image> = (0..height)
-            .into_par_iter()
-            .map_init(
-                || (self.pixel(), Samples::new(self.scene)),
-                |(pixel, samples), y| {
-                    let mut row = Image::default();
-                    for x in 0..width {
-                        pixel.clear(self.estimator.empty());
-                        if !self.render.is_cancelled() {
-                            self.sample([x, y], pixel, BLOCK, count, samples);
-                        }
-                        row.push(pixel, self.estimator, &[], self.render.extras);
-                    }
-                    self.render.tell(done.fetch_add(1, Relaxed) + 1, u64::from(height));
-                    row
-                },
-            )
-            .collect();
-        let mut image = Image { size: [width, height], ..Image::default() };
-        rows.into_iter().for_each(|row| image.append(row));
-        (image, self.stopped(done.into_inner() == u64::from(height) && !self.render.is_cancelled()))
-    }
-
-    fn stopped(&self, finished: bool) -> Stopped {
-        if finished { Stopped::Finished } else { Stopped::Cancelled }
-    }
-
-    /// Pass by pass: moments of all pixels.
-    fn in_passes(&self) -> Result<(Image, Stopped, Option<String>), RenderError> {
-        let render = self.render;
-        let mut frame = self.frame()?;
-        let (mut finished, mut not_saved, mut saved) = (vec![false; frame.pixels.len()], None, Instant::now());
-        let is_finished = loop {
-            self.mark_finished(&frame, &mut finished);
-            if finished.iter().all(|finished| *finished) {
-                break true;
-            }
-            if render.is_cancelled() {
-                break false;
-            }
-            self.pass(&mut frame, &finished);
-            self.tell(&frame);
-            if let Some((path, every)) = &render.save
-                && saved.elapsed() >= *every
-            {
-                not_saved = self.file(path).save(&words(&mut frame)).err().map(|error| error.to_string());
-                saved = Instant::now();
-            }
-        };
-        if let Some((path, _)) = &render.save {
-            not_saved = self.file(path).save(&words(&mut frame)).err().map(|error| error.to_string());
-        }
-        let image = frame.resolve(self.estimator, render.method.shared_radius(), render.extras);
-        Ok((image, self.stopped(is_finished), not_saved))
-    }
-
-    /// One block of each pixel that is not finished.
-    fn pass(&self, frame: &mut Frame<C, E::Term>, finished: &[bool]) {
-        let width = self.scene.size()[0] as usize;
-        let block = self.block();
-        let out_of_time = || match self.render.budget {
-            Budget::Time(time) => self.begun.elapsed() >= time,
-            _ => false,
-        };
-        frame.pixels.par_chunks_mut(width).zip(finished.par_chunks(width)).enumerate().for_each_init(
-            || Samples::new(self.scene),
-            |samples, (y, (pixels, finished))| {
-                for (x, pixel) in pixels.iter_mut().enumerate().filter(|(x, _)| !finished[*x]) {
-                    if self.render.is_cancelled() || (pixel.count() > 0 && out_of_time()) {
-                        return;
-                    }
-                    let more = match self.render.budget {
-                        Budget::Samples(samples) => samples.saturating_sub(pixel.count()).min(block as u64),
-                        _ => block as u64,
-                    };
-                    self.sample([x as u32, y as u32], pixel, block, more, samples);
-                }
-            },
-        );
-    }
-
-    fn block(&self) -> usize {
-        if matches!(self.render.budget, Budget::Time(_)) { SHORT } else { BLOCK }
-    }
-
-    /// Finds the pixels that need no more samples.
-    fn mark_finished(&self, frame: &Frame<C, E::Term>, finished: &mut [bool]) {
-        match self.render.budget {
-            Budget::Samples(samples) => {
-                finished
-                    .iter_mut()
-                    .zip(&frame.pixels)
-                    .for_each(|(finished, pixel)| *finished = pixel.count() >= samples);
-            }
-            Budget::Time(time) => {
-                let out = self.begun.elapsed() >= time;
-                finished
-                    .iter_mut()
-                    .zip(&frame.pixels)
-                    .for_each(|(finished, pixel)| *finished = out && pixel.count() > 0);
-            }
-            Budget::Error(target) => {
-                let estimates: Vec<PixelEstimate> =
-                    frame.pixels.par_iter().map(|pixel| pixel.estimate(self.estimator, &[])).collect();
-                let size = |x: &[f64; 3]| x[..C::LANES].iter().map(|x| x * x).sum::<f64>().sqrt();
-                let floor = estimates.iter().map(|estimate| size(&estimate.value)).sum::<f64>()
-                    / estimates.len() as f64
-                    / 100.0;
-                for ((finished, pixel), estimate) in finished.iter_mut().zip(&frame.pixels).zip(&estimates) {
-                    let (error, value) = (size(&estimate.std_error), size(&estimate.value));
-                    // A pixel that saw no light has no error bar; it is black for all that is known.
-                    let small = error <= target * value.max(floor) || (value == 0.0 && pixel.count() >= 8 * ENOUGH);
-                    *finished |= (pixel.count() >= ENOUGH && small) || pixel.count() >= MOST;
-                }
-            }
-        }
-    }
-
-    fn tell(&self, frame: &Frame<C, E::Term>) {
-        let counts = || frame.pixels.iter().map(Pixel::count);
-        match self.render.budget {
-            Budget::Samples(samples) => self.render.tell(counts().sum(), samples * frame.pixels.len() as u64),
-            Budget::Time(time) => self.render.tell(self.begun.elapsed().as_millis() as u64, time.as_millis() as u64),
-            Budget::Error(_) => self.render.tell(counts().max().unwrap_or(0), MOST),
-        }
-    }
-
-    /// A new frame, or the one that is to be resumed.
-    fn frame(&self) -> Result<Frame<C, E::Term>, RenderError> {
-        let mut frame = Frame::new(self.scene.size(), self.scene.terms().len(), self.estimator.empty(), self.errors());
-        let Some(path) = &self.render.resume else { return Ok(frame) };
-        let file = self.file(path);
-        let Some(words) = file.load()? else {
-            let source = std::io::Error::from(std::io::ErrorKind::NotFound);
-            return Err(file.error(Fault::Io { doing: "read it", source }).into());
-        };
-        let mut rest = words.iter();
-        let mut complete = true;
-        frame.words(&mut |word| match rest.next() {
-            Some(saved) => *word = *saved,
-            None => complete = false,
-        });
-        if !complete || rest.len() > 0 {
-            return Err(file.error(Fault::Damaged("it does not hold the numbers of this image")).into());
-        }
-        Ok(frame)
-    }
-
-    /// A file of this render: what decides the bits of its samples.
-    fn file(&self, path: &PathBuf) -> CheckpointFile {
-        let render = self.render;
-        let unlimited = Description { samples: 0, ..render.description.clone() };
-        let settings = [
-            ("the version of ratiocv", env!("CARGO_PKG_VERSION").to_owned()),
-            ("the scene", format!("{:08x}", crc32fast::hash(format!("{unlimited:?}").as_bytes()))),
-            ("the sampling of lights", format!("{:?}", render.effective_options())),
-            ("the estimator", render.method.name().to_owned()),
-            ("the defensive weight", format!("{:?}", render.method.weight())),
-            ("the seed", render.seed.to_string()),
-            ("samples in a block", self.block().to_string()),
-            ("error bars", self.errors().to_string()),
-        ];
-        CheckpointFile::new(path, settings.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
-    }
-}
-
-fn words<C: Colour, M: crate::render::method::Term<C>>(frame: &mut Frame<C, M>) -> Vec<u64> {
-    let mut words = Vec::new();
-    frame.words(&mut |word| words.push(*word));
-    words
 }
