@@ -2,7 +2,7 @@
 
 use crate::description::{Description, Filter};
 use crate::error::SceneError;
-use crate::geometry::{Columns, Ray};
+use crate::geometry::{Beam, Columns};
 use crate::random::Random;
 use glam::Vec3;
 
@@ -47,17 +47,17 @@ impl Camera {
         })
     }
 
-    /// A ray through a point of pixel (x, y), as the filter distributes them.
+    /// Rays through points of pixel (x, y), as the filter distributes them.
     #[inline(always)]
-    pub(crate) fn ray(&self, [x, y]: [u32; 2], random: &mut Random) -> Ray {
-        let [a, b] = random.uniforms();
-        let [a, b] = if self.tent > 0.0 { [self.in_tent(a), self.in_tent(b)] } else { [a, b] };
-        self.through(x as f32 + a, y as f32 + b)
-    }
-
-    #[inline(always)]
-    fn through(&self, x: f32, y: f32) -> Ray {
-        Ray::new(self.eye, (self.corner + self.right * x + self.down * y).normalize())
+    pub(crate) fn rays(&self, [x, y]: [u32; 2], random: &mut Random) -> Beam {
+        let [mut a, mut b] = [random.lane(), random.lane()];
+        if self.tent > 0.0 {
+            for u in a.iter_mut().chain(&mut b) {
+                *u = self.in_tent(*u);
+            }
+        }
+        let (x, y) = (x as f32, y as f32);
+        Beam::new(self.eye, |lane| self.corner + self.right * (x + a[lane]) + self.down * (y + b[lane]))
     }
 
     /// The inverse of the tent's distribution, about the middle of a pixel.

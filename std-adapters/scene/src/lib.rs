@@ -18,6 +18,7 @@ mod error;
 mod frame;
 mod geometry;
 mod input;
+mod lanes;
 mod light;
 mod material;
 mod medium;

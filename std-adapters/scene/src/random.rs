@@ -1,5 +1,6 @@
 //! Random numbers of a block of samples.
 
+use crate::lanes::{LANES, Lane, in_memory};
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro128PlusPlus;
 
@@ -12,6 +13,12 @@ fn mixed(z: u64) -> u64 {
     let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     z ^ (z >> 31)
+}
+
+/// The upper 24 bits as a number in [0, 1).
+#[inline(always)]
+const fn unit(bits: u32) -> f32 {
+    (bits >> 8) as i32 as f32 * (f32::EPSILON / 2.0)
 }
 
 impl Random {
@@ -32,7 +39,20 @@ impl Random {
     /// Uniform in [0, 1), a multiple of 2⁻²⁴.
     #[inline(always)]
     pub(crate) fn uniform(&mut self) -> f32 {
-        (self.0.next_u32() >> 8) as i32 as f32 * (f32::EPSILON / 2.0)
+        unit(self.0.next_u32())
+    }
+
+    /// Eight of them.
+    #[inline(always)]
+    pub(crate) fn lane(&mut self) -> Lane {
+        let mut bits = [0; LANES];
+        for bits in &mut bits {
+            *bits = self.0.next_u32();
+        }
+        in_memory(&mut bits);
+        let mut lane = bits.map(unit);
+        in_memory(&mut lane);
+        lane
     }
 
     #[inline(always)]

@@ -9,7 +9,7 @@ use crate::light::{Emitter, Lights};
 use crate::material::{Surface, within};
 use crate::medium::Filled;
 use crate::needs::{Needs, Options};
-use crate::path::{BLOCK, Block, Kernel, Samples, Term, Terms, kernel};
+use crate::path::{BLOCK, Block, Kernel, Samples, Term, Terms, everything, kernel};
 
 /// Where paths without a limit begin to end by Russian roulette if the description says nothing: between
 /// white walls they would never end.
@@ -117,6 +117,25 @@ impl<C: Colour> Scene<C> {
             size: description.size,
             kernel: kernel(&needs),
         })
+    }
+
+    /// The same with a kernel that leaves nothing out: as slow as a renderer that does not look at its scene, to
+    /// measure what looking saves. Images have the same expectation; sample by sample they may differ, because more
+    /// techniques may be combined.
+    ///
+    /// ```
+    /// use ratiocv_core::Spectrum;
+    /// use ratiocv_scene::{Description, Samples, Scene};
+    /// let scene = Scene::<Spectrum<f32, 3>>::new(&Description::built_in("S4b")?, &Default::default())?;
+    /// let scene = scene.with_everything();
+    /// let mut samples = Samples::new(&scene);
+    /// scene.trace([64, 64], 0, 16, 1, &mut samples);
+    /// assert!((samples.plain[3][2] - 1.6).abs() < 1e-5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_everything(self) -> Self {
+        Self { kernel: everything(), ..self }
     }
 
     /// What it needs, and what is left out.

@@ -128,6 +128,16 @@ fn image_means_of_references() {
     }
 }
 
+/// Also those whose own kernel combines fewer techniques.
+#[test]
+fn image_means_with_everything() {
+    for reference in &REFERENCES {
+        let [right, errors] = reference.mean;
+        let scene = scene(reference.name, RATIO).with_everything();
+        agree(plain_image(&scene, 16, 15), right, errors, reference.name);
+    }
+}
+
 #[test]
 fn scene_files_are_these_scenes() {
     for reference in &REFERENCES {

@@ -5,16 +5,20 @@
 //! whatever rounding says, and a plane is not met again at all: no offsets that would have to be larger than
 //! rounding and smaller than what is to be seen. Only triangles need a least distance, from other triangles.
 
+mod beam;
 mod columns;
 mod cube;
 mod mesh;
+mod nearest;
 mod packs;
 mod rectangle;
 mod sphere;
 
+pub(crate) use beam::Beam;
 pub(crate) use columns::Columns;
 pub(crate) use cube::Cube;
 pub(crate) use mesh::{Meshes, Triangle};
+pub(crate) use nearest::Nearest;
 pub(crate) use rectangle::Rectangle;
 pub(crate) use sphere::Sphere;
 
@@ -59,10 +63,6 @@ pub(crate) struct Hit {
     /// Its number, in the order of the arrays.
     pub(crate) shape: u32,
     triangle: u32,
-}
-
-impl Hit {
-    const NONE: Self = Self { t: f32::INFINITY, shape: NONE, triangle: NONE };
 }
 
 /// A point of a surface or in space, from which rays start.
@@ -195,34 +195,62 @@ impl Geometry {
     /// What `ray` meets first.
     #[inline(always)]
     pub(crate) fn closest(&self, ray: &Ray) -> Hit {
-        self.closest_of::<false>(ray, [self.spheres.len(), self.rectangles.len(), self.cubes.len()])
-    }
-
-    /// What a ray of the camera meets first, among what it is to see.
-    #[inline(always)]
-    pub(crate) fn seen_by_camera(&self, ray: &Ray) -> Hit {
-        self.closest_of::<true>(ray, self.seen)
-    }
-
-    #[inline(always)]
-    fn closest_of<const CAMERA: bool>(&self, ray: &Ray, [spheres, rectangles, cubes]: [usize; 3]) -> Hit {
-        let Hit { mut t, mut shape, .. } = Hit::NONE;
-        closest_in(&self.sphere_packs, ray, 0, spheres as u32, (&mut t, &mut shape));
+        let mut hit = Hit { t: f32::INFINITY, shape: NONE, triangle: NONE };
+        closest_in(&self.sphere_packs, ray, 0, &mut hit);
         let mut number = self.spheres.len() as u32;
-        closest_in(&self.rectangle_packs, ray, number, number + rectangles as u32, (&mut t, &mut shape));
+        closest_in(&self.rectangle_packs, ray, number, &mut hit);
         number += self.rectangles.len() as u32;
-        for cube in &self.cubes[..cubes] {
-            let distance = cube.distance(ray, ray.shape == number);
-            if distance < t {
-                (t, shape) = (distance, number);
+        for cube in &self.cubes {
+            let t = cube.distance(ray, ray.shape == number);
+            if t < hit.t {
+                hit = Hit { t, shape: number, triangle: NONE };
             }
             number += 1;
         }
-        let mut hit = Hit { t, shape, triangle: NONE };
+        self.or_triangle::<false>(ray, hit)
+    }
+
+    /// What rays of the camera meet first, among what it is to see; but for triangles.
+    #[inline(always)]
+    pub(crate) fn seen_by_camera(&self, beam: &Beam) -> Nearest {
+        let [spheres, rectangles, cubes] = self.seen;
+        let mut nearest = Nearest::NOTHING;
+        let mut number = 0;
+        for sphere in &self.spheres[..spheres] {
+            let (to_origin, square) = (beam.origin - sphere.center, sphere.radius * sphere.radius);
+            let t = beam.distances(|direction| sphere::distance(to_origin, square, direction, false));
+            nearest.keep(&t, number);
+            number += 1;
+        }
+        number = self.spheres.len() as u32;
+        for rectangle in &self.rectangles[..rectangles] {
+            let Rectangle { center, normal, duals, .. } = *rectangle;
+            let t = beam.distances(|direction| rectangle::distance(center - beam.origin, normal, duals, direction));
+            nearest.keep(&t, number);
+            number += 1;
+        }
+        number = (self.spheres.len() + self.rectangles.len()) as u32;
+        for cube in &self.cubes[..cubes] {
+            let t = beam.distances(|direction| cube.distance(&Ray::new(beam.origin, direction), false));
+            nearest.keep(&t, number);
+            number += 1;
+        }
+        nearest
+    }
+
+    /// What ray `lane` of a beam meets first: `nearest`, or a triangle.
+    #[inline(always)]
+    pub(crate) fn seen_by(&self, ray: &Ray, nearest: &Nearest, lane: usize) -> Hit {
+        self.or_triangle::<true>(ray, nearest.lane(lane))
+    }
+
+    /// `hit`, or a triangle that is nearer.
+    #[inline(always)]
+    fn or_triangle<const CAMERA: bool>(&self, ray: &Ray, hit: Hit) -> Hit {
         if let Some(meshes) = &self.meshes
             && let Some((t, triangle)) = meshes.closest::<CAMERA>(ray, ray.triangle, hit.t)
         {
-            hit = Hit { t, shape: meshes.triangle(triangle).shape, triangle };
+            return Hit { t, shape: meshes.triangle(triangle).shape, triangle };
         }
         hit
     }
@@ -438,6 +466,26 @@ mod tests {
         assert!(!geometry.occluded(&up, 10.0, NONE));
     }
 
+    /// To the bit.
+    #[test]
+    fn rays_side_by_side_meet_what_each_meets_alone() {
+        let mut random = Random::new(7, [0, 0], 0);
+        let (geometry, _) = Geometry::new(&many(&mut random)).expect("sound shapes");
+        let mut met = 0;
+        for _ in 0..1000 {
+            let directions: [Vec3; Beam::RAYS] = core::array::from_fn(|_| vector(&mut random));
+            let beam = Beam::new(vector(&mut random) * 4.0, |lane| directions[lane]);
+            let seen = geometry.seen_by_camera(&beam);
+            for lane in 0..Beam::RAYS {
+                let ray = beam.ray(lane);
+                let (ours, right) = (geometry.seen_by(&ray, &seen, lane), geometry.closest(&ray));
+                assert_eq!((ours.t, ours.shape, ours.triangle), (right.t, right.shape, right.triangle));
+                met += usize::from(right.shape != NONE);
+            }
+        }
+        assert!(met > 1000, "{met}");
+    }
+
     #[test]
     fn shapes_that_the_camera_does_not_see_still_hide() {
         let mut shapes: Vec<_> =
@@ -445,7 +493,8 @@ mod tests {
         shapes.iter_mut().step_by(2).for_each(|shape| shape.visible_to_camera = false);
         let (geometry, order) = Geometry::new(&shapes).expect("sound shapes");
         let ray = Ray::new(-5.0 * Vec3::Z, Vec3::Z);
-        assert_eq!(order[geometry.seen_by_camera(&ray).shape as usize].0, 1);
+        let seen = geometry.seen_by_camera(&Beam::new(ray.origin, |_| ray.direction));
+        assert_eq!(order[seen.lane(3).shape as usize].0, 1);
         assert_eq!(order[geometry.closest(&ray).shape as usize].0, 0);
         assert!(geometry.occluded(&ray, 5.0, NONE));
         // The light itself is passed over, what is before it is not.

@@ -1,33 +1,7 @@
 //! Eight spheres or rectangles side by side: loops over lanes become vector instructions.
 
-use crate::geometry::{Ray, Rectangle, Sphere};
-use glam::Vec3;
-
-/// Shapes in a pack.
-pub(crate) const LANES: usize = 8;
-
-type Lane = [f32; LANES];
-
-/// Vectors side by side.
-#[derive(Clone, Copy, Debug)]
-struct Vectors {
-    x: Lane,
-    y: Lane,
-    z: Lane,
-}
-
-impl Vectors {
-    const ZERO: Self = Self { x: [0.0; LANES], y: [0.0; LANES], z: [0.0; LANES] };
-
-    fn set(&mut self, lane: usize, v: Vec3) {
-        (self.x[lane], self.y[lane], self.z[lane]) = (v.x, v.y, v.z);
-    }
-
-    #[inline(always)]
-    fn dot(&self, lane: usize, v: Vec3) -> f32 {
-        self.x[lane] * v.x + self.y[lane] * v.y + self.z[lane] * v.z
-    }
-}
+use crate::geometry::{Hit, Ray, Rectangle, Sphere, rectangle, sphere};
+use crate::lanes::{LANES, Lane, NUMBERS, Vectors, first_lane, in_memory, least};
 
 /// Shapes of one kind.
 ///
@@ -52,28 +26,17 @@ pub(super) fn packs_of<P: Pack>(shapes: &[P::Shape]) -> Vec<P> {
     packs.collect()
 }
 
-/// The nearest shape of `packs` before `nearest`, which it becomes; shapes are numbered from `first` on, and those
-/// from `limit` on are not seen.
+/// The nearest shape of `packs` before `t`, which become `nearest`; shapes are numbered from `first` on.
 #[inline(always)]
-pub(super) fn closest_in<P: Pack>(packs: &[P], ray: &Ray, first: u32, limit: u32, (t, shape): (&mut f32, &mut u32)) {
+pub(super) fn closest_in<P: Pack>(packs: &[P], ray: &Ray, first: u32, nearest: &mut Hit) {
     let mut first = first;
     for pack in packs {
-        let mut distances = pack.distances(ray, ray.shape.wrapping_sub(first));
-        let seen = limit.wrapping_sub(first);
-        if seen < LANES as u32 {
-            for (lane, distance) in distances.iter_mut().enumerate() {
-                *distance = if (lane as u32) < seen { *distance } else { f32::INFINITY };
-            }
-        }
-        let nearest = least(&distances);
-        if nearest < *t {
-            *t = nearest;
+        let distances = pack.distances(ray, ray.shape.wrapping_sub(first));
+        let least = least(distances);
+        if least < nearest.t {
+            nearest.t = least;
             // The first of equals.
-            let mut nearest_lane = 0;
-            for lane in (0..LANES).rev() {
-                nearest_lane = if distances[lane] == nearest { lane } else { nearest_lane };
-            }
-            *shape = first + nearest_lane as u32;
+            nearest.shape = first + first_lane(&distances, least);
         }
         first += LANES as u32;
     }
@@ -85,26 +48,14 @@ pub(super) fn occluded_by<P: Pack>(packs: &[P], ray: &Ray, first: u32, t: f32, b
     let mut first = first;
     let mut occluded = false;
     for pack in packs {
-        let mut distances = pack.distances(ray, ray.shape.wrapping_sub(first));
+        let distances = pack.distances(ray, ray.shape.wrapping_sub(first));
         let but = but.wrapping_sub(first);
-        for (lane, distance) in distances.iter_mut().enumerate() {
-            *distance = if lane as u32 == but { f32::INFINITY } else { *distance };
+        for lane in 0..LANES {
+            occluded |= (distances[lane] < t) & (NUMBERS[lane] != but);
         }
-        occluded |= least(&distances) < t;
         first += LANES as u32;
     }
     occluded
-}
-
-/// The least, in a tree.
-#[inline(always)]
-fn least(t: &Lane) -> f32 {
-    let less = |a: f32, b: f32| if a < b { a } else { b };
-    let mut halves = [0.0; 4];
-    for i in 0..4 {
-        halves[i] = less(t[i], t[i + 4]);
-    }
-    less(less(halves[0], halves[2]), less(halves[1], halves[3]))
 }
 
 /// Spheres: see [`Sphere`].
@@ -123,26 +74,14 @@ impl Pack for Spheres {
         self.square[lane] = sphere.radius * sphere.radius;
     }
 
-    /// The discriminant is r² less the square of the distance from the centre to the line, which keeps its
-    /// digits from afar (Haines et al. 2019).
     #[inline(always)]
     fn distances(&self, ray: &Ray, own: u32) -> Lane {
-        let (o, d) = (ray.origin, ray.direction);
         let mut distances = [0.0; LANES];
         for (lane, distance) in distances.iter_mut().enumerate() {
-            let (x, y, z) = (o.x - self.center.x[lane], o.y - self.center.y[lane], o.z - self.center.z[lane]);
-            let b = x * d.x + y * d.y + z * d.z;
-            let (lx, ly, lz) = (x - d.x * b, y - d.y * b, z - d.z * b);
-            let square = self.square[lane] - (lx * lx + ly * ly + lz * lz);
-            let half = square.max(0.0).sqrt();
-            let near = -b - half;
-            let first = if near > 0.0 { near } else { half - b };
-            // The root also where a ray from the surface grazes and rounding would let it out.
-            let own = (lane as u32 == own) & (self.square[lane] > 0.0);
-            let t = if own { -2.0 * b } else { first };
-            let met = (t > 0.0) & ((square >= 0.0) | own);
-            *distance = if met { t } else { f32::INFINITY };
+            let own = (NUMBERS[lane] == own) & (self.square[lane] > 0.0);
+            *distance = sphere::distance(ray.origin - self.center.get(lane), self.square[lane], ray.direction, own);
         }
+        in_memory(&mut distances);
         distances
     }
 }
@@ -167,20 +106,16 @@ impl Pack for Rectangles {
         }
     }
 
-    /// To the plane, and whether that is inside the edges.
     #[inline(always)]
     fn distances(&self, ray: &Ray, own: u32) -> Lane {
-        let (o, d) = (ray.origin, ray.direction);
         let mut distances = [0.0; LANES];
         for (lane, distance) in distances.iter_mut().enumerate() {
-            let to = Vec3::new(self.center.x[lane] - o.x, self.center.y[lane] - o.y, self.center.z[lane] - o.z);
-            // 0/0 in a lane that is empty: NaN is not above 0.
-            let t = self.normal.dot(lane, to) / self.normal.dot(lane, d);
-            let place = Vec3::new(d.x * t - to.x, d.y * t - to.y, d.z * t - to.z);
-            let (u, v) = (self.duals[0].dot(lane, place).abs(), self.duals[1].dot(lane, place).abs());
-            let met = (t > 0.0) & (u <= 1.0) & (v <= 1.0) & (lane as u32 != own);
-            *distance = if met { t } else { f32::INFINITY };
+            let to_center = self.center.get(lane) - ray.origin;
+            let duals = [self.duals[0].get(lane), self.duals[1].get(lane)];
+            let met = rectangle::distance(to_center, self.normal.get(lane), duals, ray.direction);
+            *distance = if NUMBERS[lane] == own { f32::INFINITY } else { met };
         }
+        in_memory(&mut distances);
         distances
     }
 }

@@ -35,3 +35,16 @@ impl Rectangle {
         self.center + self.edges[0] * (2.0 * u - 1.0) + self.edges[1] * (2.0 * v - 1.0)
     }
 }
+
+/// The distance at which a ray in `direction` meets the rectangle, infinite if it passes; `to_center` leads to the
+/// centre from where it starts. To the plane, and whether that is inside the edges: without branches, for shapes or
+/// rays side by side.
+#[inline(always)]
+pub(super) fn distance(to_center: Vec3, normal: Vec3, duals: [Vec3; 2], direction: Vec3) -> f32 {
+    // 0/0 without a normal: NaN is not above 0.
+    let t = normal.dot(to_center) / normal.dot(direction);
+    let place = direction * t - to_center;
+    let (u, v) = (duals[0].dot(place).abs(), duals[1].dot(place).abs());
+    let met = (t > 0.0) & (u <= 1.0) & (v <= 1.0);
+    if met { t } else { f32::INFINITY }
+}

@@ -19,7 +19,7 @@ impl Sphere {
         sound.then_some(Self { center, radius, side: if flip { -1.0 } else { 1.0 } })
     }
 
-    /// Where the ray is inside; as in [`Spheres`](super::packs::Spheres).
+    /// Where the ray is inside; as in [`distance`].
     #[inline(always)]
     pub(crate) fn interval(&self, ray: &Ray) -> Interval {
         let to_origin = ray.origin - self.center;
@@ -36,4 +36,23 @@ impl Sphere {
         let outward = (position - self.center).normalize();
         (self.center + outward * self.radius, outward * self.side)
     }
+}
+
+/// The distance at which a ray meets the surface, infinite if it passes: from `to_origin`, seen from the centre, in
+/// `direction`, `square` being r²; `own`: from a point of the surface.
+///
+/// The discriminant is r² less the square of the distance from the centre to the line, which keeps its digits from
+/// afar (Haines et al. 2019). Without branches, for shapes or rays side by side.
+#[inline(always)]
+pub(super) fn distance(to_origin: Vec3, square: f32, direction: Vec3, own: bool) -> f32 {
+    let b = to_origin.dot(direction);
+    let to_line = to_origin - direction * b;
+    let discriminant = square - to_line.dot(to_line);
+    let half = discriminant.max(0.0).sqrt();
+    let near = -b - half;
+    let first = if near > 0.0 { near } else { half - b };
+    // The root also where a ray from the surface grazes and rounding would let it out.
+    let t = if own { -2.0 * b } else { first };
+    let met = (t > 0.0) & ((discriminant >= 0.0) | own);
+    if met { t } else { f32::INFINITY }
 }

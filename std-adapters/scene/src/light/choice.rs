@@ -1,7 +1,9 @@
 //! Which light to sample: one probability per channel, and the one that is used.
 
 use crate::colour::Colour;
+use crate::lanes::{LANES, Lane, each, in_memory, total};
 use crate::light::Emitter;
+use crate::light::lamps::Lamps;
 use crate::planted::planted;
 use glam::Vec3;
 
@@ -40,11 +42,6 @@ pub(crate) struct Light<C> {
     pub(crate) radiance: C,
     /// What the choice of each channel is proportional to, but for the place.
     weight: C,
-    /// The same for the choice that is made.
-    importance: f32,
-    center: Vec3,
-    radius: f32,
-    plane: Option<Vec3>,
 }
 
 /// What cosine a place has for light.
@@ -58,48 +55,12 @@ pub(crate) enum Facing {
     Cosine(Vec3),
 }
 
-impl<C: Colour> Light<C> {
-    /// Cosines over squared distance, of the middle; 0 only if all of it is below the horizon or turned away.
-    #[inline(always)]
-    fn seen_from(&self, at: Vec3, facing: Facing) -> f32 {
-        let to = self.center - at;
-        let square = to.dot(to);
-        let inverse = 1.0 / square.sqrt();
-        let mut seen = 1.0 / square.max(self.radius * self.radius);
-        if let Some(normal) = self.plane {
-            seen *= (-normal.dot(to) * inverse).max(0.0);
-        }
-        // Above the horizon is what is seen of a sphere whose sine is s if cos > −s, all of it if cos ≥ s.
-        let s = self.radius * inverse;
-        let cosine = |normal: Vec3| normal.dot(to) * inverse;
-        match facing {
-            Facing::Any => seen,
-            Facing::Above(normal) => {
-                if cosine(normal) > -s {
-                    seen
-                } else {
-                    0.0
-                }
-            }
-            Facing::Cosine(normal) => {
-                let cos = cosine(normal);
-                let partly = (cos + s) * (cos + s) * 0.25 / s;
-                seen * if cos >= s {
-                    cos
-                } else if cos > -s {
-                    partly
-                } else {
-                    0.0
-                }
-            }
-        }
-    }
-}
-
 /// All lights that are sampled directly.
 #[derive(Debug)]
 pub(crate) struct Lights<C> {
     pub(crate) lights: Vec<Light<C>>,
+    /// The same, side by side.
+    lamps: Vec<Lamps>,
     choice: LightChoice,
     mixture: Mixture,
 }
@@ -107,20 +68,39 @@ pub(crate) struct Lights<C> {
 /// The weights at the last vertex, so that what is hit from there knows how likely it was to be sampled.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Weights {
-    seen: Vec<f32>,
-    weights: Vec<f32>,
+    seen: Vec<Lane>,
+    weights: Vec<Lane>,
     total: f32,
 }
 
 impl Weights {
     pub(crate) fn new(lights: usize) -> Self {
-        Self { seen: vec![1.0; lights], weights: vec![1.0; lights], total: lights as f32 }
+        let lamps = vec![[1.0; LANES]; lights.div_ceil(LANES)];
+        Self { seen: lamps.clone(), weights: lamps, total: lights as f32 }
     }
 
     /// The probability of `light`, as it was at the last choice.
     #[inline(always)]
     pub(crate) fn probability(&self, light: usize) -> f32 {
-        self.weights[light] / self.total
+        self.weights.as_flattened()[light] / self.total
+    }
+
+    /// The light whose weight `place`, in [0, total), falls into.
+    #[inline(always)]
+    fn light_at(&self, mut place: f32) -> usize {
+        for (lamps, weights) in self.weights.iter().enumerate() {
+            let (mut sum, mut passed) = (0.0, 0);
+            for weight in weights {
+                sum += weight;
+                passed += usize::from(place >= sum);
+            }
+            if passed < LANES {
+                return lamps * LANES + passed;
+            }
+            place -= sum;
+        }
+        // Past the end by rounding.
+        self.weights.as_flattened().iter().rposition(|weight| *weight > 0.0).unwrap_or(0)
     }
 }
 
@@ -135,7 +115,7 @@ pub(crate) struct Chosen<C> {
 
 impl<C: Colour> Lights<C> {
     pub(crate) const fn new(choice: LightChoice, mixture: Mixture) -> Self {
-        Self { lights: Vec::new(), choice, mixture }
+        Self { lights: Vec::new(), lamps: Vec::new(), choice, mixture }
     }
 
     /// Adds a light; `shape` is the number of its shape.
@@ -151,8 +131,18 @@ impl<C: Colour> Lights<C> {
             Mixture::L2 => (weight * weight).sum().sqrt(),
             Mixture::Uniform => 1.0,
         };
-        let ((center, radius), plane) = (emitter.bound(), emitter.plane());
-        self.lights.push(Light { emitter, shape, radiance, weight, importance, center, radius, plane });
+        let lane = self.lights.len() % LANES;
+        if lane == 0 {
+            self.lamps.push(Lamps::NONE);
+        }
+        if let Some(lamps) = self.lamps.last_mut() {
+            lamps.set(lane, emitter.bound(), emitter.plane());
+            lamps.importance[lane] = importance;
+            for channel in 0..C::LANES {
+                lamps.weights[channel][lane] = weight.channel(channel);
+            }
+        }
+        self.lights.push(Light { emitter, shape, radiance, weight });
     }
 
     /// Chooses a light for a vertex; `None` if no light reaches it.
@@ -168,44 +158,44 @@ impl<C: Colour> Lights<C> {
         }
         // The channels' own sums are needed for p_j, and for their mean.
         let by_channel = AUXILIARY || self.mixture == Mixture::Uniform;
-        let mut totals = C::ZERO;
-        let mut total = 0.0;
-        for ((light, seen), weight) in self.lights.iter().zip(&mut weights.seen).zip(&mut weights.weights) {
+        let mut sums = [[0.0; LANES]; 3];
+        let mut sum = [0.0; LANES];
+        for ((lamps, seen), weight) in self.lamps.iter().zip(&mut weights.seen).zip(&mut weights.weights) {
             if self.choice == LightChoice::Local {
-                *seen = light.seen_from(at, facing);
+                lamps.seen_from(at, facing, seen);
             }
-            *weight = light.importance * *seen;
-            total += *weight;
+            *weight = each(&lamps.importance, seen, |importance, seen| importance * seen);
+            sum = each(&sum, weight, |sum, weight| sum + weight);
+            in_memory(&mut sum);
             if by_channel {
-                totals = totals + light.weight.times(*seen);
+                for (channel, weights) in lamps.weights.iter().enumerate().take(C::LANES) {
+                    let own = each(weights, seen, |weight, seen| weight * seen);
+                    sums[channel] = each(&sums[channel], &own, |sum, own| sum + own);
+                }
+                in_memory(&mut sums);
             }
         }
+        let totals = C::of(Vec3::from_array([total(sums[0]), total(sums[1]), total(sums[2])]));
         let inverse_totals = totals.map(|sum| if sum > 0.0 { 1.0 / sum } else { 0.0 });
         if self.mixture == Mixture::Uniform {
-            total = 0.0;
-            for ((light, seen), weight) in self.lights.iter().zip(&weights.seen).zip(&mut weights.weights) {
-                *weight = (light.weight * inverse_totals).sum() * seen;
-                total += *weight;
+            sum = [0.0; LANES];
+            for ((lamps, seen), weight) in self.lamps.iter().zip(&weights.seen).zip(&mut weights.weights) {
+                for lane in 0..LANES {
+                    let own = |channel: usize| lamps.weights[channel][lane] * inverse_totals.channel(channel);
+                    weight[lane] = (0..C::LANES).map(own).sum::<f32>() * seen[lane];
+                    sum[lane] += weight[lane];
+                }
             }
         }
-        weights.total = total;
-        if total.is_nan() || total <= 0.0 {
+        weights.total = total(sum);
+        if weights.total.is_nan() || weights.total <= 0.0 {
             return None;
         }
-        let mut place = u * total;
-        let mut chosen = 0;
-        for (light, weight) in weights.weights.iter().enumerate() {
-            if *weight > 0.0 {
-                chosen = light;
-                if place < *weight {
-                    break;
-                }
-                place -= *weight;
-            }
-        }
+        let chosen = weights.light_at(u * weights.total);
         let probability = weights.probability(chosen);
         let h = if AUXILIARY {
-            let own = (self.lights[chosen].weight * inverse_totals).times(weights.seen[chosen] / probability);
+            let own =
+                (self.lights[chosen].weight * inverse_totals).times(weights.seen.as_flattened()[chosen] / probability);
             // A channel without light has no preference.
             let own = planted!("light_choice_not_normalised": own, own * totals);
             C::select(C::ZERO.lt(totals), own, C::ONE)

@@ -2,6 +2,7 @@
 
 mod choice;
 mod emitter;
+mod lamps;
 
 pub(crate) use choice::{Facing, Lights, Weights};
 pub use choice::{LightChoice, Mixture};

@@ -8,7 +8,7 @@
 use crate::Scene;
 use crate::colour::Colour;
 use crate::frame::{Frame, cosine_direction, uniform_direction};
-use crate::geometry::{NONE, Point};
+use crate::geometry::{Beam, Hit, NONE, Point, Ray};
 use crate::light::Facing;
 use crate::material::Lobes;
 use crate::medium::{pass, transmittance};
@@ -59,8 +59,16 @@ impl<
         let Block { pixel, block, count, seed } = self.block;
         let mut random = Random::new(seed, pixel, block);
         self.samples.count = count;
-        for sample in 0..count {
-            self.samples.plain[sample] = self.path(sample, &mut random);
+        let scene = self.scene;
+        // Rays of the camera are made and traced side by side.
+        for first in (0..count).step_by(Beam::RAYS) {
+            let beam = scene.camera.rays(pixel, &mut random);
+            let seen = scene.geometry.seen_by_camera(&beam);
+            for lane in 0..Beam::RAYS.min(count - first) {
+                let ray = beam.ray(lane);
+                let hit = scene.geometry.seen_by(&ray, &seen, lane);
+                self.samples.plain[first + lane] = self.path(first + lane, (ray, hit), &mut random);
+            }
         }
     }
 }
@@ -155,14 +163,12 @@ impl<
     const SCATTERING: bool,
 > Paths<'_, C, AUXILIARY, MEDIA, CONDUCTORS, LIGHTS, SCATTERING>
 {
-    /// Traces sample number `sample`; what is not in pairs is returned.
+    /// Traces sample number `sample`, whose ray of the camera meets `hit`; what is not in pairs is returned.
     #[inline(always)]
-    fn path(&mut self, sample: usize, random: &mut Random) -> C {
-        let Self { scene, block, samples } = self;
+    fn path(&mut self, sample: usize, (mut ray, mut hit): (Ray, Hit), random: &mut Random) -> C {
+        let Self { scene, samples, .. } = self;
         let Samples { pairs, weights, .. } = &mut **samples;
         let mut record = Record::<C, AUXILIARY>::new(&scene.terms, pairs, sample);
-        let mut ray = scene.camera.ray(block.pixel, random);
-        let mut hit = scene.geometry.seen_by_camera(&ray);
         let channel = if C::LANES > 1 && (MEDIA || CONDUCTORS) { random.below(C::LANES) } else { 0 };
         // f of the path so far over its density M, and P_j/M.
         let mut throughput = C::ONE;

@@ -7,7 +7,7 @@ mod samples;
 mod terms;
 
 pub(crate) use kernel::Block;
-pub(crate) use kernels::{Kernel, kernel};
+pub(crate) use kernels::{Kernel, everything, kernel};
 pub use samples::{BLOCK, Samples};
 pub(crate) use terms::Terms;
 pub use terms::{Technique, Term};

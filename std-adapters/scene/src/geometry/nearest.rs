@@ -1,0 +1,36 @@
+//! What eight rays meet.
+
+use crate::geometry::{Hit, NONE};
+use crate::lanes::{LANES, Lane, each, in_memory};
+
+/// The nearest shape of each of eight rays.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Nearest {
+    t: Lane,
+    shape: [u32; LANES],
+}
+
+impl Nearest {
+    pub(super) const NOTHING: Self = Self { t: [f32::INFINITY; LANES], shape: [NONE; LANES] };
+
+    /// Shape `number` is met at `t`: kept where it is nearer than what was before.
+    #[inline(always)]
+    pub(super) fn keep(&mut self, t: &Lane, number: u32) {
+        let mut nearer = [0; LANES];
+        for lane in 0..LANES {
+            nearer[lane] = if t[lane] < self.t[lane] { u32::MAX } else { 0 };
+        }
+        in_memory(&mut nearer);
+        for lane in 0..LANES {
+            self.shape[lane] = (number & nearer[lane]) | (self.shape[lane] & !nearer[lane]);
+        }
+        self.t = each(t, &self.t, |t, before| if t < before { t } else { before });
+        in_memory(self);
+    }
+
+    /// What ray number `lane` meets.
+    #[inline(always)]
+    pub(super) const fn lane(&self, lane: usize) -> Hit {
+        Hit { t: self.t[lane], shape: self.shape[lane], triangle: NONE }
+    }
+}
