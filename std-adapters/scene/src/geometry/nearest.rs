@@ -17,12 +17,12 @@ impl Nearest {
     #[inline(always)]
     pub(super) fn keep(&mut self, t: &Lane, number: u32) {
         let mut nearer = [0; LANES];
-        for lane in 0..LANES {
-            nearer[lane] = if t[lane] < self.t[lane] { u32::MAX } else { 0 };
+        for (nearer, (t, before)) in nearer.iter_mut().zip(t.iter().zip(&self.t)) {
+            *nearer = if t < before { u32::MAX } else { 0 };
         }
         in_memory(&mut nearer);
-        for lane in 0..LANES {
-            self.shape[lane] = (number & nearer[lane]) | (self.shape[lane] & !nearer[lane]);
+        for (shape, nearer) in self.shape.iter_mut().zip(nearer) {
+            *shape = (number & nearer) | (*shape & !nearer);
         }
         self.t = each(t, &self.t, |t, before| if t < before { t } else { before });
         in_memory(self);

@@ -8,7 +8,7 @@
 use crate::Scene;
 use crate::colour::Colour;
 use crate::frame::{Frame, cosine_direction, uniform_direction};
-use crate::geometry::{Beam, Hit, NONE, Point, Ray};
+use crate::geometry::{Beam, NONE, Nearest, Point};
 use crate::light::Facing;
 use crate::material::Lobes;
 use crate::medium::{pass, transmittance};
@@ -65,9 +65,8 @@ impl<
             let beam = scene.camera.rays(pixel, &mut random);
             let seen = scene.geometry.seen_by_camera(&beam);
             for lane in 0..Beam::RAYS.min(count - first) {
-                let ray = beam.ray(lane);
-                let hit = scene.geometry.seen_by(&ray, &seen, lane);
-                self.samples.plain[first + lane] = self.path(first + lane, (ray, hit), &mut random);
+                let sample = first + lane;
+                self.samples.plain[sample] = self.path(sample, (&beam, &seen, lane), &mut random);
             }
         }
     }
@@ -163,12 +162,14 @@ impl<
     const SCATTERING: bool,
 > Paths<'_, C, AUXILIARY, MEDIA, CONDUCTORS, LIGHTS, SCATTERING>
 {
-    /// Traces sample number `sample`, whose ray of the camera meets `hit`; what is not in pairs is returned.
+    /// Traces sample number `sample`, which starts with ray `lane` of the camera's; what is not in pairs is returned.
     #[inline(always)]
-    fn path(&mut self, sample: usize, (mut ray, mut hit): (Ray, Hit), random: &mut Random) -> C {
+    fn path(&mut self, sample: usize, (beam, seen, lane): (&Beam, &Nearest, usize), random: &mut Random) -> C {
         let Self { scene, samples, .. } = self;
         let Samples { pairs, weights, .. } = &mut **samples;
         let mut record = Record::<C, AUXILIARY>::new(&scene.terms, pairs, sample);
+        let mut ray = beam.ray(lane);
+        let mut hit = scene.geometry.seen_by(&ray, seen, lane);
         let channel = if C::LANES > 1 && (MEDIA || CONDUCTORS) { random.below(C::LANES) } else { 0 };
         // f of the path so far over its density M, and P_j/M.
         let mut throughput = C::ONE;
