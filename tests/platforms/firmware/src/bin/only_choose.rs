@@ -1,0 +1,5 @@
+//! The choice among them alone.
+#![no_std]
+#![no_main]
+
+ratiocv_firmware::only!(ratiocv_core::Choose::default());

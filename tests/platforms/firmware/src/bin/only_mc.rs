@@ -1,0 +1,5 @@
+//! Plain Monte Carlo alone.
+#![no_std]
+#![no_main]
+
+ratiocv_firmware::only!(ratiocv_core::Plain);

@@ -1,0 +1,5 @@
+//! The mean of ratios alone.
+#![no_std]
+#![no_main]
+
+ratiocv_firmware::only!(ratiocv_core::MeanOfRatios);

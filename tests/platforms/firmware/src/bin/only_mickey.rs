@@ -1,0 +1,5 @@
+//! Mickey's estimator alone.
+#![no_std]
+#![no_main]
+
+ratiocv_firmware::only!(ratiocv_core::Mickey);

@@ -1,0 +1,5 @@
+//! The ratio of means alone.
+#![no_std]
+#![no_main]
+
+ratiocv_firmware::only!(ratiocv_core::RatioOfMeans);

@@ -1,0 +1,5 @@
+//! The regression ratio alone.
+#![no_std]
+#![no_main]
+
+ratiocv_firmware::only!(ratiocv_core::RegressionRatio::default());

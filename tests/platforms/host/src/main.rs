@@ -1,0 +1,11 @@
+//! Prints the lines of `ratiocv_platforms`; with the argument `packs`, those that packs make.
+
+use ratiocv_platforms::{all, packs};
+
+fn main() {
+    let print = &mut |what: &str, name: &str, bits: u64| println!("{what} {name} {bits:016x}");
+    match std::env::args().nth(1).as_deref() {
+        Some("packs") => packs(print),
+        _ => all(print),
+    }
+}
