@@ -164,10 +164,10 @@ pub struct RenderArguments {
     #[arg(long, value_name = "N", group = "budget")]
     pub spp: Option<core::num::NonZeroU64>,
     /// Render for so many seconds
-    #[arg(long, value_name = "SECONDS", value_parser = seconds, group = "budget")]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, group = "budget", allow_negative_numbers = true)]
     pub time: Option<f64>,
     /// Sample each pixel until its standard error is this part of its radiance
-    #[arg(long, value_name = "TARGET", value_parser = relative_error, group = "budget")]
+    #[arg(long, value_name = "TARGET", value_parser = relative_error, group = "budget", allow_negative_numbers = true)]
     pub error: Option<f64>,
     /// Seed; the same seed gives the same image, for any number of threads
     #[arg(long, value_name = "N", default_value_t = 0)]
