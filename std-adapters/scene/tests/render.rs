@@ -2,8 +2,10 @@
 
 use core::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use core::time::Duration;
+use ratiocv_core::Flags;
 use ratiocv_scene::{
-    Budget, Description, Image, Layer, LightChoice, Method, Options, Render, RenderError, Stopped, Written, write,
+    Budget, Description, Geometry, Image, Layer, LightChoice, Method, Options, Render, RenderError, Stopped, Written,
+    write,
 };
 use std::path::Path;
 
@@ -263,6 +265,22 @@ fn a_time_is_kept_and_every_pixel_has_samples() {
     assert!(rendered.time >= Duration::from_millis(200));
     assert!(rendered.image.samples.iter().all(|samples| *samples >= 16 && samples % 16 == 0));
     assert_eq!(rendered.samples, rendered.image.samples.iter().sum::<u64>());
+}
+
+/// A pixel whose light is all in pairs says nothing of its plain part, which has none; one without any light does.
+#[test]
+fn a_pixel_is_black_only_if_all_of_it_is() {
+    let lit = scene("S1", [4, 4]);
+    let flags = image(&Render::new(&lit).flags(true).budget(Budget::Samples(64))).flags;
+    assert!(flags.iter().all(|bits| bits & Flags::NO_SUPPORT.bits() == 0), "{flags:?}");
+    let mut dark = scene("S1", [4, 4]);
+    for light in dark.shapes.iter_mut().filter(|shape| shape.emission.is_some()) {
+        if let Geometry::Sphere { center, .. } = &mut light.geometry {
+            center.y = -center.y; // below the floor
+        }
+    }
+    let flags = image(&Render::new(&dark).flags(true).budget(Budget::Samples(64))).flags;
+    assert!(flags.iter().all(|bits| bits & Flags::NO_SUPPORT.bits() != 0), "{flags:?}");
 }
 
 #[test]
