@@ -42,6 +42,6 @@ fn a_scene_is_rendered_by_every_method() {
         csv.lines().map(|line| line.split(',').take(7).collect::<Vec<_>>().join(",")).collect()
     };
     assert_eq!(errors(&csv), errors(&again));
-    fails_with(&ratiocv(&["report", "--scene", "S9"], ""), 1, &["S9"]);
+    fails_with(&ratiocv(&["report", "--scene", "S9", "--out", folder.to_str().expect("a path")], ""), 1, &["S9"]);
     fails_with(&ratiocv(&["report", "--lights", "power"], ""), 2, &["--scene"]);
 }
