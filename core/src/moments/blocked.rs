@@ -164,9 +164,13 @@ impl<V, B: Kernel> Blocked<V, B> {
         runs.min(if self.closed < BLOCK as u64 { 1 } else { RUNS })
     }
 
-    /// How many of a batch's draws go in one by one before its runs: those that make blocks of one.
+    /// How many of a batch's draws go in one by one before its runs: those that make blocks of one, unless a run
+    /// can do without them.
     #[inline(always)]
     pub(super) fn singles(&self, draws: usize) -> usize {
+        if !B::LEARNS && draws >= BLOCK {
+            return 0;
+        }
         SINGLES.saturating_sub(self.closed).min(draws as u64) as usize
     }
 }

@@ -184,6 +184,7 @@ impl<V: Lanes, const K: usize> ComomentsBlock<V, K> {
 impl<V: Lanes, const K: usize> Kernel for ComomentsBlock<V, K> {
     type State = ComomentsState<V::Wide, K>;
     const PARTIALS: usize = partials(V::LANES);
+    const LEARNS: bool = true;
     lanes_beside!(ComomentsBlock<Spectrum<V, P>, K>);
 
     #[inline(always)]

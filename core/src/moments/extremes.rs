@@ -64,6 +64,7 @@ impl<V: Lanes> ExtremesBlock<V> {
 impl<V: Lanes> Kernel for ExtremesBlock<V> {
     type State = ExtremesState<V::Wide>;
     const PARTIALS: usize = partials(V::LANES);
+    const LEARNS: bool = false;
     lanes_beside!(ExtremesBlock<Spectrum<V, P>>);
 
     #[inline(always)]

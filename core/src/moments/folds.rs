@@ -36,6 +36,7 @@ impl<B: Kernel<State: Default>> Kernel for FoldsBlock<B> {
     type State = FoldsState<B::State>;
     // Draws go to the folds by their number, as they go to partial sums.
     const PARTIALS: usize = 1;
+    const LEARNS: bool = B::LEARNS;
     kernels_beside!();
 
     #[inline(always)]

@@ -57,6 +57,7 @@ impl<V: Lanes, const G: usize, const K: usize> Kernel for GroupsBlock<V, G, K> {
     type State = GroupsState<V::Wide, G, K>;
     // The groups are partial sums already.
     const PARTIALS: usize = 1;
+    const LEARNS: bool = false;
     kernels_beside!();
 
     #[inline(always)]

@@ -41,6 +41,7 @@ pub struct Joined<B, R = (), G = (), E = (), T = (), F = ()> {
 impl Kernel for () {
     type State = ();
     const PARTIALS: usize = 1;
+    const LEARNS: bool = false;
     type Beside<const P: usize> = ();
     #[inline(always)]
     fn empty((): &()) {}
@@ -77,6 +78,7 @@ impl State for () {
 impl<B: Kernel, const L: usize> Kernel for [B; L] {
     type State = [B::State; L];
     const PARTIALS: usize = B::PARTIALS;
+    const LEARNS: bool = B::LEARNS;
     type Beside<const P: usize> = [B::Beside<P>; L];
     #[inline(always)]
     fn empty(state: &Self::State) -> Self {
@@ -150,6 +152,7 @@ impl<S: State, const L: usize> State for [S; L] {
 impl<B: Kernel, R: Kernel, G: Kernel, E: Kernel, T: Kernel, F: Kernel> Kernel for Joined<B, R, G, E, T, F> {
     type State = Joined<B::State, R::State, G::State, E::State, T::State, F::State>;
     const PARTIALS: usize = B::PARTIALS;
+    const LEARNS: bool = B::LEARNS || R::LEARNS || G::LEARNS || E::LEARNS || T::LEARNS || F::LEARNS;
     type Beside<const P: usize> =
         Joined<B::Beside<P>, R::Beside<P>, G::Beside<P>, E::Beside<P>, T::Beside<P>, F::Beside<P>>;
     #[inline(always)]

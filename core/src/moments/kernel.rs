@@ -18,6 +18,9 @@ pub trait Kernel: Copy {
     /// A function of the number of channels alone, so that the order of summation, and with it
     /// every bit, is the same for any lane width. A power of two, at most 8.
     const PARTIALS: usize;
+    /// Whether its sums are taken about what the state learns from the first draws of a stream. If not, a batch
+    /// may begin with a run.
+    const LEARNS: bool;
     /// `P` partial sums side by side: the same kernel on `P` times as many lanes, so that a few channels
     /// fill SIMD registers too; `[Self; P]` where a draw's number matters.
     type Beside<const P: usize>: Copy;

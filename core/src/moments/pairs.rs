@@ -60,6 +60,7 @@ impl<W: Lanes, const K: usize, const G: usize> Default for PairsState<W, K, G> {
 impl<V: Lanes, const K: usize, const G: usize> Kernel for PairsBlock<V, K, G> {
     type State = PairsState<V::Wide, K, G>;
     const PARTIALS: usize = 1;
+    const LEARNS: bool = false;
     kernels_beside!();
 
     #[inline(always)]

@@ -62,6 +62,7 @@ impl<V: Lanes, const K: usize> SumsBlock<V, K> {
 impl<V: Lanes, const K: usize> Kernel for SumsBlock<V, K> {
     type State = SumsState<V::Wide, K>;
     const PARTIALS: usize = partials(V::LANES);
+    const LEARNS: bool = false;
     lanes_beside!(SumsBlock<Spectrum<V, P>, K>);
 
     #[inline(always)]

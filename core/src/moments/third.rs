@@ -100,6 +100,7 @@ impl<V: Lanes> ThirdBlock<V> {
 impl<V: Lanes> Kernel for ThirdBlock<V> {
     type State = ThirdState<V::Wide>;
     const PARTIALS: usize = partials(V::LANES);
+    const LEARNS: bool = false;
     lanes_beside!(ThirdBlock<Spectrum<V, P>>);
 
     #[inline(always)]

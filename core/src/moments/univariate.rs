@@ -187,6 +187,7 @@ impl<Q: Quantity, const S: usize, L: Lanes> UnivariateBlock<Q, S, L> {
 impl<Q: Quantity, const S: usize> Kernel for UnivariateBlock<Q, S> {
     type State = UnivariateState<Q, <Q::Lanes as Lanes>::Wide, S>;
     const PARTIALS: usize = partials(<Q::Lanes as Lanes>::LANES);
+    const LEARNS: bool = false;
     lanes_beside!(UnivariateBlock<Q, S, Spectrum<Q::Lanes, P>>);
 
     #[inline(always)]
