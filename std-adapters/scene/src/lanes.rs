@@ -32,6 +32,32 @@ pub(crate) fn each(a: &Lane, b: &Lane, of: impl Fn(f32, f32) -> f32) -> Lane {
     lanes
 }
 
+/// All bits set where something holds.
+pub(crate) type Mask = [u32; LANES];
+
+/// Where `holds` of each pair.
+#[inline(always)]
+pub(crate) fn mask<A: Copy, B: Copy>(a: &[A; LANES], b: &[B; LANES], holds: impl Fn(A, B) -> bool) -> Mask {
+    let (a, b) = (*a, *b);
+    let mut mask = [0; LANES];
+    for lane in 0..LANES {
+        mask[lane] = if holds(a[lane], b[lane]) { u32::MAX } else { 0 };
+    }
+    in_memory(&mut mask);
+    mask
+}
+
+/// `a` where `mask` is set, `b` elsewhere.
+#[inline(always)]
+pub(crate) fn blend(mask: &Mask, a: &Lane, b: &Lane) -> Lane {
+    let (mask, a, b) = (*mask, *a, *b);
+    let mut lanes = [0.0; LANES];
+    for lane in 0..LANES {
+        lanes[lane] = f32::from_bits((a[lane].to_bits() & mask[lane]) | (b[lane].to_bits() & !mask[lane]));
+    }
+    lanes
+}
+
 /// The sum, in a tree.
 #[inline(always)]
 pub(crate) fn total([a, b, c, d, e, f, g, h]: Lane) -> f32 {

@@ -143,6 +143,12 @@ impl Needs {
         }
     }
 
+    /// Light is scattered once, by a diffuse surface, and comes from lights that are sampled: eight paths are traced
+    /// side by side.
+    pub(crate) fn direct_alone(&self) -> bool {
+        self.depth == Some(2) && self.light_sampling && !(self.scattering || self.conductors || self.media)
+    }
+
     /// What is left out, and why: a line each.
     pub fn explain(&self) -> Vec<&'static str> {
         let mut lines = Vec::new();

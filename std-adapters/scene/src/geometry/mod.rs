@@ -12,6 +12,7 @@ mod mesh;
 mod nearest;
 mod packs;
 mod rectangle;
+mod segments;
 mod sphere;
 
 pub(crate) use beam::Beam;
@@ -20,6 +21,7 @@ pub(crate) use cube::Cube;
 pub(crate) use mesh::{Meshes, Triangle};
 pub(crate) use nearest::Nearest;
 pub(crate) use rectangle::Rectangle;
+pub(crate) use segments::Segments;
 pub(crate) use sphere::Sphere;
 
 use packs::{Rectangles, Spheres, closest_in, occluded_by, packs_of};
@@ -218,7 +220,7 @@ impl Geometry {
         let mut number = 0;
         for sphere in &self.spheres[..spheres] {
             let (to_origin, square) = (beam.origin - sphere.center, sphere.radius * sphere.radius);
-            let t = beam.distances(|direction| sphere::distance(to_origin, square, direction, false));
+            let t = beam.distances(|direction| sphere::distance(to_origin, square, direction));
             nearest.keep(&t, number);
             number += 1;
         }
@@ -304,6 +306,7 @@ mod tests {
     use super::*;
     use crate::description::{Geometry as Described, Material, Mesh, Shape, Surface};
     use crate::frame::uniform_direction;
+    use crate::lanes::LANES;
     use crate::random::Random;
     use glam::{Affine3A, DVec3, Mat3, Quat};
 
@@ -464,6 +467,32 @@ mod tests {
         let up = geometry.point(&down, hit).towards(Vec3::Z);
         assert_eq!((hit.shape, geometry.closest(&up).shape), (1, NONE));
         assert!(!geometry.occluded(&up, 10.0, NONE));
+    }
+
+    /// Also from shapes, and to points of shapes that do not hide them.
+    #[test]
+    fn segments_side_by_side_are_hidden_as_each_is_alone() {
+        let mut random = Random::new(8, [0, 0], 0);
+        let (geometry, order) = Geometry::new(&many(&mut random)).expect("sound shapes");
+        let mut counts = [0; 2];
+        for _ in 0..2000 {
+            let (mut segments, mut alone) = (Segments::NONE, [false; LANES]);
+            // The last lanes stay empty.
+            for (lane, alone) in alone.iter_mut().enumerate().take(LANES - 2) {
+                let mut ray = Ray::new(vector(&mut random) * 4.0, uniform_direction(random.uniforms()));
+                let hit = geometry.closest(&ray);
+                if hit.shape != NONE && random.uniform() < 0.5 {
+                    ray = geometry.point(&ray, hit).towards(uniform_direction(random.uniforms()));
+                }
+                let to = if random.uniform() < 0.5 { NONE } else { random.below(order.len()) as u32 };
+                let end = 3.0 * random.uniform();
+                segments.set(lane, &ray, end, to);
+                *alone = geometry.occluded(&ray, end, to);
+                counts[usize::from(*alone)] += 1;
+            }
+            assert_eq!(geometry.hidden(&segments), alone);
+        }
+        assert!(counts.iter().all(|count| *count > 1000), "{counts:?}");
     }
 
     /// To the bit.

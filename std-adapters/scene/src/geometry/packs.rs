@@ -79,7 +79,10 @@ impl Pack for Spheres {
         let mut distances = [0.0; LANES];
         for (lane, distance) in distances.iter_mut().enumerate() {
             let own = (NUMBERS[lane] == own) & (self.square[lane] > 0.0);
-            *distance = sphere::distance(ray.origin - self.center.get(lane), self.square[lane], ray.direction, own);
+            let to_origin = ray.origin - self.center.get(lane);
+            let across = sphere::across(to_origin, ray.direction);
+            let from_afar = sphere::distance(to_origin, self.square[lane], ray.direction);
+            *distance = if own { across } else { from_afar };
         }
         in_memory(&mut distances);
         distances

@@ -39,20 +39,25 @@ impl Sphere {
 }
 
 /// The distance at which a ray meets the surface, infinite if it passes: from `to_origin`, seen from the centre, in
-/// `direction`, `square` being r²; `own`: from a point of the surface.
+/// `direction`, `square` being r².
 ///
 /// The discriminant is r² less the square of the distance from the centre to the line, which keeps its digits from
 /// afar (Haines et al. 2019). Without branches, for shapes or rays side by side.
 #[inline(always)]
-pub(super) fn distance(to_origin: Vec3, square: f32, direction: Vec3, own: bool) -> f32 {
+pub(super) fn distance(to_origin: Vec3, square: f32, direction: Vec3) -> f32 {
     let b = to_origin.dot(direction);
     let to_line = to_origin - direction * b;
     let discriminant = square - to_line.dot(to_line);
     let half = discriminant.max(0.0).sqrt();
     let near = -b - half;
-    let first = if near > 0.0 { near } else { half - b };
-    // The root also where a ray from the surface grazes and rounding would let it out.
-    let t = if own { -2.0 * b } else { first };
-    let met = (t > 0.0) & ((discriminant >= 0.0) | own);
+    let t = if near > 0.0 { near } else { half - b };
+    let met = (t > 0.0) & (discriminant >= 0.0);
     if met { t } else { f32::INFINITY }
+}
+
+/// The same from a point of the surface: the other root, also where the ray grazes and rounding would let it out.
+#[inline(always)]
+pub(super) fn across(to_origin: Vec3, direction: Vec3) -> f32 {
+    let t = -2.0 * to_origin.dot(direction);
+    if t > 0.0 { t } else { f32::INFINITY }
 }

@@ -1,6 +1,7 @@
 //! Which light to sample: one probability per channel, and the one that is used.
 
 use crate::colour::Colour;
+use crate::geometry::NONE;
 use crate::lanes::{LANES, Lane, each, in_memory, total};
 use crate::light::Emitter;
 use crate::light::lamps::Lamps;
@@ -41,7 +42,16 @@ pub(crate) struct Light<C> {
     /// Radiance; radiant intensity of a point.
     pub(crate) radiance: C,
     /// What the choice of each channel is proportional to, but for the place.
-    weight: C,
+    pub(super) weight: C,
+}
+
+impl<C> Light<C> {
+    /// Where a shadow ray to it ends, `distance` away, and the shape that does not hide that: a light that is convex
+    /// does not hide what is seen of it.
+    #[inline(always)]
+    pub(crate) const fn segment(&self, distance: f32) -> (f32, u32) {
+        if self.emitter.hides_itself() { (distance * (1.0 - 1e-4), NONE) } else { (distance, self.shape) }
+    }
 }
 
 /// What cosine a place has for light.
@@ -60,9 +70,9 @@ pub(crate) enum Facing {
 pub(crate) struct Lights<C> {
     pub(crate) lights: Vec<Light<C>>,
     /// The same, side by side.
-    lamps: Vec<Lamps>,
-    choice: LightChoice,
-    mixture: Mixture,
+    pub(super) lamps: Vec<Lamps>,
+    pub(super) choice: LightChoice,
+    pub(super) mixture: Mixture,
 }
 
 /// The weights at the last vertex, so that what is hit from there knows how likely it was to be sampled.
@@ -71,12 +81,14 @@ pub(crate) struct Weights {
     seen: Vec<Lane>,
     weights: Vec<Lane>,
     total: f32,
+    /// What each of eight places receives of every light.
+    pub(crate) by_place: Vec<Lane>,
 }
 
 impl Weights {
     pub(crate) fn new(lights: usize) -> Self {
         let lamps = vec![[1.0; LANES]; lights.div_ceil(LANES)];
-        Self { seen: lamps.clone(), weights: lamps, total: lights as f32 }
+        Self { seen: lamps.clone(), weights: lamps, total: lights as f32, by_place: vec![[1.0; LANES]; lights] }
     }
 
     /// The probability of `light`, as it was at the last choice.
@@ -209,7 +221,6 @@ impl<C: Colour> Lights<C> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::NONE;
     use crate::random::Random;
     use ratiocv_core::Spectrum;
 

@@ -38,35 +38,61 @@ impl Lamps {
         self.least[lane] = if plane.is_some() { 0.0 } else { 1.0 };
     }
 
-    /// Cosines over squared distance, of the middle; 0 only if all of it is below the horizon or turned away.
+    /// The light in `lane`.
+    #[inline(always)]
+    pub(super) fn lamp(&self, lane: usize) -> Lamp {
+        let (center, normal) = (self.center.get(lane), self.normal.get(lane));
+        Lamp { center, radius: self.radius[lane], normal, least: self.least[lane] }
+    }
+
+    /// What a place receives of each: see [`Lamp::received`].
     #[inline(always)]
     pub(super) fn seen_from(&self, at: Vec3, facing: Facing, seen: &mut Lane) {
         match facing {
             Facing::Any => self.seen_by(at, Vec3::ZERO, |_, _| 1.0, seen),
             Facing::Above(normal) => self.seen_by(at, normal, |cos, s| if cos > -s { 1.0 } else { 0.0 }, seen),
-            Facing::Cosine(normal) => {
-                let cosine = |cos: f32, s: f32| {
-                    let partly = (cos + s) * (cos + s) * 0.25 / s;
-                    let above = if cos >= s { cos } else { partly };
-                    if cos > -s { above } else { 0.0 }
-                };
-                self.seen_by(at, normal, cosine, seen);
-            }
+            Facing::Cosine(normal) => self.seen_by(at, normal, cosine, seen),
         }
     }
 
-    /// `cosine` gets that at the place, and the sine of the cone in which the light is seen: above the horizon is what
-    /// is seen of a sphere whose sine is s if cos > −s, all of it if cos ≥ s.
     #[inline(always)]
     fn seen_by(&self, at: Vec3, normal: Vec3, cosine: impl Fn(f32, f32) -> f32, seen: &mut Lane) {
         for (lane, seen) in seen.iter_mut().enumerate() {
-            let to = self.center.get(lane) - at;
-            let (square, radius) = (to.dot(to), self.radius[lane]);
-            let inverse = 1.0 / square.sqrt();
-            let greater = |a: f32, b: f32| if a > b { a } else { b };
-            let turned = greater(-self.normal.get(lane).dot(to) * inverse, self.least[lane]);
-            *seen = turned / greater(square, radius * radius) * cosine(normal.dot(to) * inverse, radius * inverse);
+            *seen = self.lamp(lane).received(at, normal, &cosine);
         }
         in_memory(seen);
     }
+}
+
+/// One of them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lamp {
+    center: Vec3,
+    radius: f32,
+    normal: Vec3,
+    least: f32,
+}
+
+impl Lamp {
+    /// Cosines over squared distance, of the middle; 0 only if all of it is below the horizon or turned away.
+    ///
+    /// `cosine` gets that at the place, and the sine of the cone in which the light is seen: above the horizon is what
+    /// is seen of a sphere whose sine is s if cos > −s, all of it if cos ≥ s.
+    #[inline(always)]
+    pub(super) fn received(&self, at: Vec3, normal: Vec3, cosine: impl Fn(f32, f32) -> f32) -> f32 {
+        let to = self.center - at;
+        let square = to.dot(to);
+        let inverse = 1.0 / square.sqrt();
+        let greater = |a: f32, b: f32| if a > b { a } else { b };
+        let turned = greater(-self.normal.dot(to) * inverse, self.least);
+        turned / greater(square, self.radius * self.radius) * cosine(normal.dot(to) * inverse, self.radius * inverse)
+    }
+}
+
+/// A diffuse surface's, of a light that may be partly below its horizon.
+#[inline(always)]
+pub(super) fn cosine(cos: f32, s: f32) -> f32 {
+    let partly = (cos + s) * (cos + s) * 0.25 / s;
+    let above = if cos >= s { cos } else { partly };
+    if cos > -s { above } else { 0.0 }
 }

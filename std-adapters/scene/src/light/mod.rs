@@ -1,6 +1,7 @@
 //! Lights, and which of them to sample.
 
 mod choice;
+mod choices;
 mod emitter;
 mod lamps;
 

@@ -7,17 +7,13 @@
 
 use crate::Scene;
 use crate::colour::Colour;
-use crate::frame::{Frame, cosine_direction, uniform_direction};
-use crate::geometry::{Beam, NONE, Nearest, Point};
-use crate::light::Facing;
-use crate::material::Lobes;
+use crate::geometry::{Beam, NONE, Nearest};
 use crate::medium::{pass, transmittance};
 use crate::path::Samples;
 use crate::path::record::Record;
+use crate::path::vertex::Vertex;
 use crate::planted::planted;
 use crate::random::Random;
-use core::f32::consts::FRAC_1_PI;
-use glam::Vec3;
 use ratiocv_simd::Work;
 
 /// What to trace.
@@ -68,87 +64,6 @@ impl<
                 let sample = first + lane;
                 self.samples.plain[sample] = self.path(sample, (&beam, &seen, lane), &mut random);
             }
-        }
-    }
-}
-
-/// What scatters light at a vertex.
-struct Vertex<C> {
-    point: Point,
-    /// Where the ray came from.
-    wi: Vec3,
-    law: Law,
-    lobes: Lobes<C>,
-    /// On the side of the ray.
-    normal: Vec3,
-    /// The one that scatters.
-    shading: Vec3,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Law {
-    Diffuse,
-    Conductor,
-    Isotropic,
-}
-
-/// f·cos and the densities of a direction: f·cos is `over_density`·`density`, channel by channel.
-struct Scattered<C> {
-    over_density: C,
-    density: C,
-}
-
-impl<C: Colour> Vertex<C> {
-    /// Of a direction from it; `None` below the horizon.
-    #[inline(always)]
-    fn scattered<const CONDUCTORS: bool, const MEDIA: bool>(&self, wo: Vec3) -> Option<Scattered<C>> {
-        if MEDIA && self.law == Law::Isotropic {
-            return Some(Scattered { over_density: C::ONE, density: C::splat(0.25 * FRAC_1_PI) });
-        }
-        let cos = self.shading.dot(wo);
-        if !(cos > 0.0 && self.normal.dot(wo) > 0.0) {
-            return None;
-        }
-        Some(if CONDUCTORS && self.law == Law::Conductor {
-            let frame = Frame::about(self.shading);
-            let [wi, wo] = [frame.to_local(self.wi), frame.to_local(wo)];
-            Scattered { over_density: self.lobes.over_density(wo), density: self.lobes.density(wi, wo) }
-        } else {
-            Scattered { over_density: self.lobes.reflectance, density: C::splat(cos * FRAC_1_PI) }
-        })
-    }
-
-    /// A direction by channel `channel`'s density; `over_density` is 0 below the horizon.
-    #[inline(always)]
-    fn sample<const CONDUCTORS: bool, const MEDIA: bool>(
-        &self,
-        channel: usize,
-        random: &mut Random,
-    ) -> (Vec3, Scattered<C>) {
-        let u = random.uniforms();
-        if MEDIA && self.law == Law::Isotropic {
-            let density = C::splat(0.25 * FRAC_1_PI);
-            return (uniform_direction(u), Scattered { over_density: C::ONE, density });
-        }
-        let frame = Frame::about(self.shading);
-        let (local, over_density, density) = if CONDUCTORS && self.law == Law::Conductor {
-            let (wo, density) = self.lobes.sample(channel, frame.to_local(self.wi), u);
-            (wo, self.lobes.over_density(wo), density)
-        } else {
-            let wo = cosine_direction(u);
-            (wo, self.lobes.reflectance, C::splat(wo.z * FRAC_1_PI))
-        };
-        let wo = frame.to_world(local);
-        let above = local.z > 0.0 && self.normal.dot(wo) > 0.0;
-        (wo, Scattered { over_density: if above { over_density } else { C::ZERO }, density })
-    }
-
-    #[inline(always)]
-    fn facing<const CONDUCTORS: bool, const MEDIA: bool>(&self) -> Facing {
-        match self.law {
-            Law::Isotropic if MEDIA => Facing::Any,
-            Law::Conductor if CONDUCTORS => Facing::Above(self.shading),
-            _ => Facing::Cosine(self.shading),
         }
     }
 }
@@ -221,32 +136,11 @@ impl<
                 break;
             }
             let vertex = if in_medium {
-                Vertex {
-                    point: Point::free(ray.at(scattered_at)),
-                    wi: -ray.direction,
-                    law: Law::Isotropic,
-                    lobes: Lobes { reflectance: C::ONE, roughness: C::ZERO },
-                    normal: ray.direction,
-                    shading: ray.direction,
-                }
+                Vertex::inside(ray.at(scattered_at), ray.direction)
             } else {
                 let Some((point, surface)) = found else { break };
-                let front = point.normal.dot(ray.direction) < 0.0;
-                if surface.black || !(front || surface.two_sided) {
-                    break;
-                }
-                let side = if front { 1.0 } else { -1.0 };
-                let normal = point.normal * side;
-                let shading = point.shading * side;
-                let shading = if shading.dot(ray.direction) < 0.0 { shading } else { normal };
-                Vertex {
-                    point,
-                    wi: -ray.direction,
-                    law: if CONDUCTORS && surface.conductor { Law::Conductor } else { Law::Diffuse },
-                    lobes: surface.lobes,
-                    normal,
-                    shading,
-                }
+                let Some(vertex) = Vertex::on::<CONDUCTORS>(point, surface, ray.direction) else { break };
+                vertex
             };
             if LIGHTS {
                 let place = (vertex.point.position, vertex.facing::<CONDUCTORS, MEDIA>());
@@ -260,12 +154,8 @@ impl<
                         .and_then(|towards| Some((towards, vertex.scattered::<CONDUCTORS, MEDIA>(towards.direction)?)));
                     if let Some((towards, scattered)) = sampled {
                         let shadow = vertex.point.towards(towards.direction);
-                        let (but, end) = if light.emitter.hides_itself() {
-                            (NONE, towards.distance * (1.0 - 1e-4))
-                        } else {
-                            (light.shape, towards.distance)
-                        };
-                        if !scene.geometry.occluded(&shadow, end, but) {
+                        let (end, to) = light.segment(towards.distance);
+                        if !scene.geometry.occluded(&shadow, end, to) {
                             let inverse = towards.inverse_pdf / chosen.probability;
                             let weight = if SCATTERING && !light.emitter.is_point() {
                                 1.0 / (1.0 + (h * scattered.density).mean() * inverse)

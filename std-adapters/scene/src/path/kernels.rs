@@ -4,6 +4,7 @@ use crate::Scene;
 use crate::colour::Colour;
 use crate::needs::Needs;
 use crate::path::Samples;
+use crate::path::direct::Direct;
 use crate::path::kernel::{Block, Paths};
 use ratiocv_simd::at_best_level;
 
@@ -28,11 +29,20 @@ fn trace<
     }
 }
 
-/// The kernel of a scene: 16 for RGB, 8 for one channel.
+fn trace_direct<C: Colour, const AUXILIARY: bool>(scene: &Scene<C>, block: Block, samples: &mut Samples<C>) {
+    if !AUXILIARY || C::LANES > 1 {
+        at_best_level(Direct::<C, AUXILIARY> { scene, block, samples });
+    }
+}
+
+/// The kernel of a scene: 18 for RGB, 9 for one channel.
 ///
 /// Techniques and conductors come in four combinations, because others cost next to nothing more in the kernel
 /// with both.
 pub(crate) fn kernel<C: Colour>(needs: &Needs) -> Kernel<C> {
+    if needs.direct_alone() {
+        return if needs.auxiliary { trace_direct::<C, true> } else { trace_direct::<C, false> };
+    }
     macro_rules! select {
         ($($auxiliary:literal $media:literal)*) => {
             match (needs.auxiliary, needs.media, needs.conductors, needs.light_sampling, needs.scattering) {

@@ -1,10 +1,12 @@
 //! Paths: what they yield, and the kernels that trace them.
 
+mod direct;
 mod kernel;
 mod kernels;
 mod record;
 mod samples;
 mod terms;
+mod vertex;
 
 pub(crate) use kernel::Block;
 pub(crate) use kernels::{Kernel, everything, kernel};

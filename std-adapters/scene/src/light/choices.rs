@@ -1,0 +1,209 @@
+//! A light for each of eight places on diffuse surfaces: lanes are places, and sums over lights need no trees.
+
+use crate::colour::Colour;
+use crate::lanes::{LANES, Lane, Vectors, blend, each, in_memory, mask};
+use crate::light::choice::{Chosen, LightChoice, Lights, Mixture};
+use crate::light::lamps::cosine;
+use crate::planted::planted;
+use glam::Vec3;
+
+/// What was chosen for eight places.
+#[derive(Clone, Debug)]
+pub(crate) struct Choices {
+    light: [u32; LANES],
+    probability: Lane,
+    /// p_j/p over the light's weight in the channel.
+    preference: [Lane; 3],
+    /// 1 where a channel has no light, and no preference.
+    dark: [Lane; 3],
+}
+
+impl<C: Colour> Lights<C> {
+    /// As [`choose`](Self::choose), for each place; `seen` has room for what it receives of every light.
+    #[inline(always)]
+    pub(crate) fn choose_each<const AUXILIARY: bool>(
+        &self,
+        at: &Vectors,
+        normals: &Vectors,
+        u: &Lane,
+        seen: &mut [Lane],
+    ) -> Choices {
+        let mut choices = Choices {
+            light: [0; LANES],
+            probability: [1.0; LANES],
+            preference: [[0.0; LANES]; 3],
+            dark: [[1.0; LANES]; 3],
+        };
+        if self.lights.len() == 1 {
+            return choices;
+        }
+        let by_channel = AUXILIARY || self.mixture == Mixture::Uniform;
+        let lamps = || self.lamps.iter().flat_map(|lamps| (0..LANES).map(move |lane| (lamps, lane)));
+        let (mut total, mut totals) = ([0.0; LANES], [[0.0; LANES]; 3]);
+        for ((lamps, number), seen) in lamps().zip(seen.iter_mut()) {
+            if self.choice == LightChoice::Local {
+                let lamp = lamps.lamp(number);
+                for lane in 0..LANES {
+                    seen[lane] = lamp.received(at.get(lane), normals.get(lane), cosine);
+                }
+                in_memory(seen);
+            }
+            let importance = lamps.importance[number];
+            total = each(&total, seen, |sum, seen| sum + importance * seen);
+            in_memory(&mut total);
+            if by_channel {
+                for (totals, weights) in totals.iter_mut().zip(&lamps.weights).take(C::LANES) {
+                    *totals = each(totals, seen, |sum, seen| sum + weights[number] * seen);
+                }
+                in_memory(&mut totals);
+            }
+        }
+        let mut inverses = [[0.0; LANES]; 3];
+        if by_channel {
+            for ((inverses, dark), totals) in inverses.iter_mut().zip(&mut choices.dark).zip(&totals) {
+                *dark = totals.map(|sum| if sum > 0.0 { 0.0 } else { 1.0 });
+                // 0 where it is dark.
+                *inverses = each(totals, dark, |sum, dark| (1.0 - dark) / (sum + dark));
+            }
+            in_memory(&mut (&mut inverses, &mut choices.dark));
+        }
+        // The mean of the channels' own probabilities adds up to the number of those that see light.
+        if self.mixture == Mixture::Uniform {
+            total = [0.0; LANES];
+            for dark in choices.dark.iter().take(C::LANES) {
+                total = each(&total, dark, |sum, dark| sum + (1.0 - dark));
+            }
+        }
+        // The last light that begins before the place, in [0, total).
+        let place = each(u, &total, |u, total| u * total);
+        let (mut begin, mut weight_of_chosen, mut seen_of_chosen) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        for (light, ((lamps, number), seen)) in lamps().zip(seen.iter()).enumerate() {
+            let mut weights = [lamps.importance[number]; LANES];
+            if self.mixture == Mixture::Uniform {
+                weights = [0.0; LANES];
+                for (inverses, own) in inverses.iter().zip(&lamps.weights).take(C::LANES) {
+                    weights = each(&weights, inverses, |sum, inverse| sum + own[number] * inverse);
+                }
+            }
+            weights = each(&weights, seen, |weight, seen| weight * seen);
+            let begun = mask(&place, &begin, |place, begin| place >= begin);
+            let here = mask(&weights, &begun, |weight, begun| (weight > 0.0) & (begun != 0));
+            for (chosen, here) in choices.light.iter_mut().zip(here) {
+                *chosen = (light as u32 & here) | (*chosen & !here);
+            }
+            seen_of_chosen = blend(&here, seen, &seen_of_chosen);
+            weight_of_chosen = blend(&here, &weights, &weight_of_chosen);
+            begin = each(&begin, &weights, |begin, weight| begin + weight);
+            in_memory(&mut (&mut choices, &mut seen_of_chosen, &mut weight_of_chosen, &mut begin));
+        }
+        choices.probability = each(&weight_of_chosen, &total, |weight, total| weight / total);
+        if AUXILIARY {
+            let scale = each(&seen_of_chosen, &choices.probability, |seen, probability| seen / probability);
+            for (preference, inverses) in choices.preference.iter_mut().zip(&inverses) {
+                *preference = each(
+                    &scale,
+                    inverses,
+                    |scale, inverse| planted!("light_choice_not_normalised": scale * inverse, scale),
+                );
+            }
+        }
+        in_memory(&mut choices);
+        choices
+    }
+
+    /// The light that was chosen for place `lane`; `None` if no light reaches it.
+    #[inline(always)]
+    pub(crate) fn chosen<const AUXILIARY: bool>(&self, choices: &Choices, lane: usize) -> Option<Chosen<C>> {
+        let (light, probability) = (choices.light[lane] as usize, choices.probability[lane]);
+        if probability.is_nan() || probability <= 0.0 {
+            return None;
+        }
+        let h = if AUXILIARY {
+            let of = |[r, g, b]: &[Lane; 3]| C::of(Vec3::new(r[lane], g[lane], b[lane]));
+            self.lights[light].weight * of(&choices.preference) + of(&choices.dark)
+        } else {
+            C::ONE
+        };
+        Some(Chosen { light, probability, h })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::uniform_direction;
+    use crate::geometry::{NONE, Rectangle, Sphere};
+    use crate::light::{Emitter, Facing, Weights};
+    use crate::random::Random;
+    use glam::Affine3A;
+    use ratiocv_core::Spectrum;
+
+    type Rgb = Spectrum<f32, 3>;
+
+    /// `count` lights of all kinds, on all sides of the origin; the last channel has none.
+    fn lights(count: usize, choice: LightChoice, mixture: Mixture) -> Lights<Rgb> {
+        let mut lights = Lights::new(choice, mixture);
+        let mut random = Random::new(8, [0, 0], 0);
+        for i in 0..count {
+            let center = uniform_direction(random.uniforms()) * (1.0 + 3.0 * random.uniform());
+            let to_world = Affine3A::from_translation(center);
+            let emitter = match i % 3 {
+                0 => Emitter::Sphere(Sphere::new(center, 0.3, false).expect("a sphere")),
+                1 => {
+                    let rectangle = Rectangle::new(&to_world, false).expect("a square");
+                    Emitter::Rectangle { area: rectangle.area(), rectangle }
+                }
+                _ => Emitter::Point(center),
+            };
+            lights.push(emitter, NONE, Spectrum([random.uniform(), random.uniform(), 0.0]));
+        }
+        lights
+    }
+
+    /// 10 and 24 lights do not fill packs of eight.
+    #[test]
+    fn eight_places_choose_what_each_would() {
+        let mut random = Random::new(9, [0, 0], 0);
+        for (count, mixture) in [1, 3, 10, 24]
+            .into_iter()
+            .flat_map(|count| [Mixture::Luminance, Mixture::L2, Mixture::Uniform].map(|mixture| (count, mixture)))
+        {
+            for choice in [LightChoice::Uniform, LightChoice::Power, LightChoice::Local] {
+                let lights = lights(count, choice, mixture);
+                let mut weights = Weights::new(count);
+                let (mut same, mut none) = (0, 0);
+                for _ in 0..100 {
+                    let (mut at, mut normals) = (Vectors::ZERO, Vectors::ZERO);
+                    for lane in 0..LANES {
+                        at.set(lane, uniform_direction(random.uniforms()) * 2.0);
+                        normals.set(lane, uniform_direction(random.uniforms()));
+                    }
+                    let u = random.lane();
+                    let mut seen = vec![[1.0; LANES]; count];
+                    let choices = lights.choose_each::<true>(&at, &normals, &u, &mut seen);
+                    for lane in 0..LANES {
+                        let place = (at.get(lane), Facing::Cosine(normals.get(lane)));
+                        let alone = lights.choose::<true>(place, u[lane], &mut weights);
+                        let (Some(ours), Some(alone)) = (lights.chosen::<true>(&choices, lane), alone) else {
+                            assert_eq!(lights.chosen::<true>(&choices, lane).is_some(), alone.is_some());
+                            none += 1;
+                            continue;
+                        };
+                        // Sums in another order may choose the neighbour.
+                        if ours.light != alone.light {
+                            continue;
+                        }
+                        same += 1;
+                        let off = (ours.probability - alone.probability).abs();
+                        assert!(off <= 1e-5 * alone.probability, "{count} {choice:?} {mixture:?}: {ours:?} {alone:?}");
+                        for channel in 0..3 {
+                            let (ours, alone) = (ours.h[channel], alone.h[channel]);
+                            assert!((ours - alone).abs() <= 1e-5 * alone.abs(), "{choice:?} {mixture:?}");
+                        }
+                    }
+                }
+                assert!(same + none >= 798 && same >= 300, "{count} {choice:?} {mixture:?}: {same} {none}");
+            }
+        }
+    }
+}
