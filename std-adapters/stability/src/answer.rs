@@ -1,0 +1,129 @@
+//! What a case must return.
+
+use crate::case::Precision;
+use ratiocv_core::{ChannelEstimate, Flags};
+
+/// The digits of two equal numbers.
+pub(crate) const EXACT: f64 = 17.0;
+
+/// What a standard error must be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ErrorBar {
+    /// Not asked.
+    Any,
+    /// Unknown.
+    Unknown,
+    /// This, to the digits of the value.
+    Near(f64),
+    /// Known, and at most this.
+    AtMost(f64),
+}
+
+/// The right answer of a case.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Right {
+    /// The value; NaN where it must be unknown.
+    pub value: f64,
+    /// Its digits: −log₁₀ of the relative error, absolute where the value is 0; 17 for every bit.
+    pub digits: f64,
+    /// The standard error.
+    pub std_error: ErrorBar,
+    /// Flags that must be raised.
+    pub must: Flags,
+    /// Flags that may be. No other may.
+    pub may: Flags,
+    /// Any of these excuses a value without digits and an unknown error: not right, but not silent.
+    pub excuse: Flags,
+}
+
+impl Right {
+    /// `value` to within a few roundings of `precision`; of the flags, advice alone.
+    pub fn new(value: f64, precision: Precision) -> Self {
+        let digits = if precision == Precision::Single { 6.5 } else { 15.0 };
+        let own = [Flags::OVERFLOW, Flags::UNDERFLOW, Flags::NO_SUPPORT];
+        let advice = Flags::ALL.iter().map(|(flag, _)| *flag).filter(|flag| !flag.fell_back() && !own.contains(flag));
+        let may = advice.fold(Flags::NONE, |may, flag| may | flag);
+        Self { value, digits, std_error: ErrorBar::Any, must: Flags::NONE, may, excuse: Flags::NONE }
+    }
+
+    /// What is broken in `ours`; `digits` are those of its value.
+    pub(crate) fn judge(&self, ours: ChannelEstimate, digits: f64) -> Result<(), String> {
+        let ChannelEstimate { value, std_error, flags } = ours;
+        let excused = Flags::ALL.iter().any(|(flag, _)| self.excuse.contains(*flag) && flags.contains(*flag));
+        // Written so that a NaN fails.
+        if !(digits >= self.digits || excused) {
+            return Err(format!("{value:e} has {digits:.1} digits and needs {}", self.digits));
+        }
+        let fits = match self.std_error {
+            ErrorBar::Any => true,
+            ErrorBar::Unknown => std_error.is_nan(),
+            ErrorBar::Near(right) => digits_of(std_error, right) >= self.digits,
+            ErrorBar::AtMost(most) => std_error <= most,
+        };
+        if !(fits || (excused && std_error.is_nan())) {
+            return Err(format!("the standard error is {std_error:e} and must be {:?}", self.std_error));
+        }
+        if !flags.contains(self.must) {
+            return Err(format!("flags {flags}, without {}", self.must));
+        }
+        if !(self.may | self.must | self.excuse).contains(flags) {
+            return Err(format!("flags {flags}, of which only {} may be", self.may | self.must | self.excuse));
+        }
+        Ok(())
+    }
+}
+
+/// Correct decimal digits of `ours`, none for a NaN that should be a number; absolute where `right` is 0.
+pub(crate) fn digits_of(ours: f64, right: f64) -> f64 {
+    if ours == right || (ours.is_nan() && right.is_nan()) {
+        return EXACT;
+    }
+    let error = if right == 0.0 { ours.abs() } else { ((ours - right) / right).abs() };
+    let digits = -libm::log10(error);
+    if digits.is_nan() { f64::NEG_INFINITY } else { digits.min(EXACT) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn estimate(value: f64, std_error: f64, flags: Flags) -> ChannelEstimate {
+        ChannelEstimate { value, std_error, flags }
+    }
+
+    #[test]
+    fn digits_are_those_of_the_relative_error() {
+        assert!((digits_of(1000.1, 1000.0) - 4.0).abs() < 1e-9);
+        assert_eq!((digits_of(2.0, 2.0), digits_of(f64::NAN, f64::NAN)), (EXACT, EXACT));
+        assert_eq!(digits_of(f64::NAN, 1.0), f64::NEG_INFINITY);
+        assert_eq!(digits_of(f64::INFINITY, 1.0), f64::NEG_INFINITY);
+        assert_eq!(digits_of(1e-3, 0.0), 3.0);
+    }
+
+    #[test]
+    fn every_part_of_an_answer_is_judged() {
+        let right = Right {
+            std_error: ErrorBar::Near(0.5),
+            must: Flags::DENOM_ZERO,
+            ..Right::new(2.0, Precision::Double)
+        };
+        let judged = |value, error, flags| right.judge(estimate(value, error, flags), digits_of(value, 2.0));
+        assert_eq!(judged(2.0, 0.5, Flags::DENOM_ZERO), Ok(()));
+        assert_eq!(judged(2.0, 0.5, Flags::DENOM_ZERO | Flags::LOW_ESS), Ok(()));
+        assert!(judged(2.1, 0.5, Flags::DENOM_ZERO).is_err());
+        assert!(judged(f64::NAN, 0.5, Flags::DENOM_ZERO).is_err());
+        assert!(judged(2.0, f64::NAN, Flags::DENOM_ZERO).is_err());
+        assert!(judged(2.0, 0.6, Flags::DENOM_ZERO).is_err());
+        assert!(judged(2.0, 0.5, Flags::NONE).is_err());
+        assert!(judged(2.0, 0.5, Flags::DENOM_ZERO | Flags::OVERFLOW).is_err());
+    }
+
+    #[test]
+    fn a_flag_may_excuse() {
+        let right = Right { excuse: Flags::OVERFLOW, std_error: ErrorBar::AtMost(0.0), ..Right::new(2.0, Precision::Single) };
+        assert_eq!(right.judge(estimate(7.0, f64::NAN, Flags::OVERFLOW), -1.0), Ok(()));
+        assert!(right.judge(estimate(7.0, f64::NAN, Flags::NONE), -1.0).is_err());
+        assert!(right.judge(estimate(2.0, 0.1, Flags::NONE), EXACT).is_err());
+        assert_eq!(right.judge(estimate(2.0, 0.0, Flags::NONE), EXACT), Ok(()));
+    }
+}

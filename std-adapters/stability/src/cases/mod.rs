@@ -1,0 +1,33 @@
+//! The cases, a file for each section.
+
+mod denominators;
+
+use crate::case::{Case, Precision};
+
+/// The sections and what they are about.
+pub const SECTIONS: &[(&str, &str)] = &[
+    ("A", "Denominators"),
+    ("B", "Dynamic range"),
+    ("C", "Offsets, constants, cancellation"),
+    ("D", "Counts, few draws, merges"),
+    ("E", "The estimators' own formulas"),
+    ("F", "Bad draws, signs of zero, lanes"),
+    ("G", "Nested, stiff, heavy-tailed"),
+    ("H", "Platform"),
+    ("StRD", "Constructible sets of NIST's Statistical Reference Datasets"),
+];
+
+/// All of them.
+pub fn all() -> Vec<Case> {
+    denominators::cases()
+}
+
+/// Those of this id (`C7`), or of this section (`C`).
+pub fn named(id: &str) -> Vec<Case> {
+    all().into_iter().filter(|case| case.id == id || case.section() == id).collect()
+}
+
+/// `make` for each precision.
+fn both(make: impl Fn(Precision) -> Vec<Case>) -> Vec<Case> {
+    Precision::BOTH.into_iter().flat_map(make).collect()
+}
