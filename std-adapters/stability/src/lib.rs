@@ -16,7 +16,7 @@ mod answer;
 mod case;
 pub mod cases;
 mod draws;
-mod exact;
+pub mod exact;
 mod lane_types;
 mod method;
 mod naive;
@@ -26,7 +26,7 @@ mod probe;
 mod row;
 mod table;
 
-pub use answer::{ErrorBar, Right};
+pub use answer::{ErrorBar, Right, digits_of};
 pub use case::{Ask, Case, Naive, Precision};
 pub use draws::Draws;
 pub use method::{Method, Several};

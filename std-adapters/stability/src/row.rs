@@ -117,7 +117,7 @@ pub(crate) fn shown_digits(digits: f64) -> String {
 
 fn judged(case: &Case, ours: ChannelEstimate, unlawful: Option<String>, lanes: &str, how: &str) -> Run {
     let digits = digits_of(ours.value, case.right.value);
-    let broken = unlawful.or_else(|| case.right.judge(ours, digits).err());
+    let broken = unlawful.or_else(|| case.right.judge(ours).err());
     Run { digits, ours, broken: broken.map(|broken| format!("{lanes} {how}: {broken}")) }
 }
 

@@ -13,3 +13,18 @@ fn section(name: &str) {
 fn a_denominators() {
     section("A");
 }
+
+#[test]
+fn b_dynamic_range() {
+    section("B");
+}
+
+#[test]
+fn c_cancellation() {
+    section("C");
+}
+
+#[test]
+fn d_counts() {
+    section("D");
+}

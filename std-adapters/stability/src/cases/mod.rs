@@ -1,6 +1,9 @@
 //! The cases, a file for each section.
 
+mod cancellation;
+mod counts;
 mod denominators;
+mod range;
 
 use crate::case::{Case, Precision};
 
@@ -19,7 +22,7 @@ pub const SECTIONS: &[(&str, &str)] = &[
 
 /// All of them.
 pub fn all() -> Vec<Case> {
-    denominators::cases()
+    [denominators::cases(), range::cases(), cancellation::cases(), counts::cases()].into_iter().flatten().collect()
 }
 
 /// Those of this id (`C7`), or of this section (`C`).
