@@ -1,9 +1,16 @@
 //! The cases, a file for each section.
 
+mod bad_draws;
 mod cancellation;
 mod counts;
 mod denominators;
+mod estimators;
+mod nested;
+mod platform;
 mod range;
+mod several;
+mod strd;
+mod weights;
 
 use crate::case::{Case, Precision};
 
@@ -20,9 +27,24 @@ pub const SECTIONS: &[(&str, &str)] = &[
     ("StRD", "Constructible sets of NIST's Statistical Reference Datasets"),
 ];
 
+pub use strd::condition_of_wampler;
+
 /// All of them.
 pub fn all() -> Vec<Case> {
-    [denominators::cases(), range::cases(), cancellation::cases(), counts::cases()].into_iter().flatten().collect()
+    let sections = [
+        denominators::cases(),
+        range::cases(),
+        cancellation::cases(),
+        counts::cases(),
+        estimators::cases(),
+        several::cases(),
+        weights::cases(),
+        bad_draws::cases(),
+        nested::cases(),
+        platform::cases(),
+        strd::cases(),
+    ];
+    sections.into_iter().flatten().collect()
 }
 
 /// Those of this id (`C7`), or of this section (`C`).
