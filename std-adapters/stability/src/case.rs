@@ -178,7 +178,7 @@ impl Case {
 
     /// Its section: the letter of its id, or `StRD`.
     pub fn section(&self) -> &'static str {
-        self.id.split_once('-').map_or(&self.id[..1], |(section, _)| section)
+        crate::cases::section_of(self.id)
     }
 
     /// The number of draws.

@@ -12,7 +12,8 @@ pub fn mean_and_variance(xs: &[f64], less: f64) -> (f64, f64) {
     }
     let first = (xs[0] / unit) as i128;
     let deviations = || xs.iter().map(|x| (x / unit) as i128 - first);
-    let (n, sum, squares) = deviations().fold((0_i128, 0_i128, 0_i128), |(n, sum, squares), d| (n + 1, sum + d, squares + d * d));
+    let (n, sum, squares) =
+        deviations().fold((0_i128, 0_i128, 0_i128), |(n, sum, squares), d| (n + 1, sum + d, squares + d * d));
     let about = n * squares - sum * sum;
     let count = n as f64;
     let mean = (n * first + sum) as f64 / count * unit;

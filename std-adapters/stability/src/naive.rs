@@ -160,15 +160,14 @@ fn one<S: Scalar>(method: Method, sums: &Sums<S>, pairs: &[[S; 2]], integral: S)
 fn two<S: Scalar>(method: Several, draws: &Draws<2>, integrals: [f64; 2]) -> S {
     let n = number::<S>(draws.count as f64);
     let [one, other] = integrals.map(S::from_f64);
-    let rows: Vec<[S; 3]> = (0..draws.count).map(|i| draws.get(i)).map(|d| [d.f, d.h[0], d.h[1]].map(S::from_f64)).collect();
+    let rows: Vec<[S; 3]> =
+        (0..draws.count).map(|i| draws.get(i)).map(|d| [d.f, d.h[0], d.h[1]].map(S::from_f64)).collect();
     let sum = |of: &dyn Fn(&[S; 3]) -> S| rows.iter().fold(S::ZERO, |sum, row| sum + of(row));
     let mean: [S; 3] = core::array::from_fn(|i| sum(&|row| row[i]) / n);
     let c = |i: usize, j: usize| sum(&|row| row[i] * row[j]) - n * mean[i] * mean[j];
     let determinant = c(1, 1) * c(2, 2) - c(1, 2) * c(1, 2);
-    let beta = [
-        (c(0, 1) * c(2, 2) - c(0, 2) * c(1, 2)) / determinant,
-        (c(0, 2) * c(1, 1) - c(0, 1) * c(1, 2)) / determinant,
-    ];
+    let beta =
+        [(c(0, 1) * c(2, 2) - c(0, 2) * c(1, 2)) / determinant, (c(0, 2) * c(1, 1) - c(0, 1) * c(1, 2)) / determinant];
     // Of u_k = h_k/H_k and y/F: the seed's Lemma 12 for two.
     let u = |row: &[S; 3]| [row[1] / one, row[2] / other];
     let value = mean[0];

@@ -1,6 +1,6 @@
 //! The table as a page: one file, nothing loaded from elsewhere.
 
-use crate::cases::SECTIONS;
+use crate::cases::{SECTIONS, Section};
 use crate::table::{HEADER, Table, cells};
 use core::fmt::Write;
 
@@ -18,7 +18,7 @@ impl Table {
              formula is in the precision of the draws.</p>\n",
             self.summary()
         );
-        for (section, title) in SECTIONS {
+        for Section { name: section, title, .. } in SECTIONS {
             let rows: Vec<_> = self.rows.iter().filter(|row| row.section == *section).collect();
             if rows.is_empty() {
                 continue;

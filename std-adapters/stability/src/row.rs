@@ -7,8 +7,10 @@ use crate::method::regressed;
 use crate::naive::naive;
 use ratiocv_core::ChannelEstimate;
 
-/// With more draws than this, one lane type of each kind is enough, and each way of accumulating once.
+/// With more draws than this, a scalar takes them in a batch and in a tree, and an array draw by draw.
 const MANY: u64 = 100_000;
+/// With more than this, a scalar alone.
+const VERY_MANY: u64 = 2_000_000;
 
 /// Who answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,9 +74,10 @@ impl Row {
             _ => all_runs(case),
         };
         let worst = runs.iter().min_by(|a, b| a.digits.total_cmp(&b.digits));
-        let (digits, ours) = worst.map_or((f64::NAN, crate::method::number(f64::NAN, ratiocv_core::Flags::NONE)), |run| {
-            (run.digits, run.ours)
-        });
+        let (digits, ours) = worst
+            .map_or((f64::NAN, crate::method::number(f64::NAN, ratiocv_core::Flags::NONE)), |run| {
+                (run.digits, run.ours)
+            });
         Self {
             id: case.id,
             section: case.section(),
@@ -146,14 +149,20 @@ fn on_lanes<S: Kept<K>, const K: usize>(
     parts: &[&crate::Draws<K>],
     estimate: impl Fn(&S, u64, bool) -> ChannelEstimate,
 ) -> Vec<Run> {
-    let many = parts.iter().map(|draws| draws.count as u64).sum::<u64>() > MANY;
+    let count = parts.iter().map(|draws| draws.count as u64).sum::<u64>();
+    let is_run = |lanes: usize, call| match lanes {
+        _ if count <= MANY => true,
+        1 => call != Call::Singly,
+        3 => call == Call::Singly && count <= VERY_MANY,
+        _ => false,
+    };
     let orders: Vec<Vec<_>> = match parts {
         [first, second] => vec![vec![*first, *second], vec![*second, *first]],
         _ => vec![parts.to_vec()],
     };
     let mut runs = Vec::new();
-    for lanes in S::lane_types(case.precision).iter().filter(|lanes| !many || lanes.lanes <= 3) {
-        for call in Call::ALL {
+    for lanes in S::lane_types(case.precision) {
+        for call in Call::ALL.into_iter().filter(|call| is_run(lanes.lanes, *call)) {
             for parts in &orders {
                 let own = (lanes.moments)(&Parts { parts: parts.clone(), innocent: false }, call);
                 let ours = estimate(&own.channels[middle(lanes.lanes)], own.count, true);

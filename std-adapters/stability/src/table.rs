@@ -121,8 +121,19 @@ pub(crate) fn cells(row: &Row) -> [String; 11] {
 }
 
 /// The columns.
-pub(crate) const HEADER: [&str; 11] =
-    ["case", "", "what is hard", "asked", "right", "ours", "± error", "textbook", "digits (needed)", "flags", "verdict"];
+pub(crate) const HEADER: [&str; 11] = [
+    "case",
+    "",
+    "what is hard",
+    "asked",
+    "right",
+    "ours",
+    "± error",
+    "textbook",
+    "digits (needed)",
+    "flags",
+    "verdict",
+];
 
 /// A table for the terminal.
 impl fmt::Display for Table {

@@ -63,7 +63,8 @@ fn in_each_precision(precision: Precision) -> Vec<Case> {
     let about = "2³⁰ draws ±1 and one at 10⁹";
     let mut cases = vec![
         merged("D4", about, Method::Plain, signs(), far(), 1e9 / (n + 1.0)).digits(15.0),
-        merged("D4", about, Method::Variance(0.0), signs(), far(), (n + 1e18 * (n / (n + 1.0))) / (n + 1.0)).digits(15.0),
+        merged("D4", about, Method::Variance(0.0), signs(), far(), (n + 1e18 * (n / (n + 1.0))) / (n + 1.0))
+            .digits(15.0),
     ];
     let half = |low: f64| Draws::of_f([low, low + 2.0]).doubled(32);
     let about = "two parts of 2³³ draws each";
@@ -87,17 +88,32 @@ fn in_each_precision(precision: Precision) -> Vec<Case> {
         let d9 = one("D9", "two draws, nothing left to fit", method, &[(1.0, 1.0), (3.0, 2.0)], 1.75, 2.0);
         cases.push(d9.exact().must(Flags::ALPHA).error(ErrorBar::Unknown));
     }
-    let d9 = one("D9", "two draws, fitted without shrinkage", Method::FreeRatio, &[(1.0, 1.0), (3.0, 2.0)], 1.75, 2.520_288_049_380_835);
+    let d9 = one(
+        "D9",
+        "two draws, fitted without shrinkage",
+        Method::FreeRatio,
+        &[(1.0, 1.0), (3.0, 2.0)],
+        1.75,
+        2.520_288_049_380_835,
+    );
     cases.push(d9.must(Flags::ALPHA).error(ErrorBar::Unknown));
     // Halves of 2 (draws 0, 2) and 1 (draw 1): 2·7/6 − (2·3/5 + 4)/3 = 0.6.
     let odd = [(1.0, 2.0), (4.0, 1.0), (2.0, 3.0)];
     cases.push(one("D10", "unequal halves weighted by their sizes", Method::Quenouille, &odd, 1.0, 0.6).digits(15.0));
     let lone = Draws::of_f([2.0]);
     let ask = Ask::One { method: Method::Ratio, draws: lone, then: None, integral: 1.0 };
-    cases.push(Case::new("D11", "the only draw of its accumulator", precision, ask, 2.0).exact().must(Flags::ONE_SAMPLE));
+    cases.push(
+        Case::new("D11", "the only draw of its accumulator", precision, ask, 2.0).exact().must(Flags::ONE_SAMPLE),
+    );
     let singles = |method, right| {
         let draws = Draws::new(1000, |i| Draw::new(1024.0 + (i * 389 % 1000) as f64, 1.0));
-        Case::new("D12", "singletons merged in a tree", precision, Ask::One { method, draws, then: None, integral: 1.0 }, right)
+        Case::new(
+            "D12",
+            "singletons merged in a tree",
+            precision,
+            Ask::One { method, draws, then: None, integral: 1.0 },
+            right,
+        )
     };
     cases.push(singles(Method::Plain, 1523.5).digits(15.0));
     cases.push(singles(Method::Variance(0.0), 83_333.25).digits(precision.of(6.5, 14.0)));

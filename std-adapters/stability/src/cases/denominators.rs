@@ -1,12 +1,12 @@
 //! A: denominators that vanish, change sign, or leave the exponent range.
 
 use super::both;
+use crate::answer::ErrorBar;
 use crate::case::Precision::{Double, Single};
 use crate::case::{Ask, Case, Precision};
 use crate::draws::Draws;
 use crate::method::Method;
 use crate::noise::noise;
-use crate::answer::ErrorBar;
 use ratiocv_core::{Draw, Flags};
 
 /// Every estimator of one auxiliary that divides by a mean.
@@ -39,7 +39,8 @@ pub(super) fn cases() -> Vec<Case> {
     }
     // Below the rounding of its terms in f64 no digit is known, and a flag says so.
     let h = [1.0, libm::exp2(-54.0), -1.0].map(|h| (1.0, h));
-    let case = pairs("A8", "a sum below the rounding of its terms", Double, (Method::Ratio, &h, 1.0), 3.0 * libm::exp2(54.0));
+    let case =
+        pairs("A8", "a sum below the rounding of its terms", Double, (Method::Ratio, &h, 1.0), 3.0 * libm::exp2(54.0));
     cases.push(case.or(Flags::DENOM_ILL).may(Flags::DENOM_ZERO));
     let ill = [1.0, -1.0 + libm::exp2(-23.0)].map(|h| (1.0, h));
     let about = "h = 1 and 2⁻²³ − 1: κ = 2²⁴ − 1";
@@ -63,9 +64,10 @@ fn in_each_precision(precision: Precision) -> Vec<Case> {
     for (id, about, nil) in [("A2", "h misses the support of f", 0.0), ("A4", "the same with h = −0", -0.0)] {
         let draws = [(1.0, nil), (2.0, nil), (3.0, nil)];
         cases.extend(RATIOS[..5].iter().map(|method| pairs(id, about, *method, &draws, 1.0, 2.0).exact().must(zero)));
-        cases.extend([Method::HartleyRoss, Method::MeanOfRatios].map(|method| {
-            pairs(id, about, method, &draws, 1.0, 2.0).exact().must(Flags::UNBOUNDED_RATIO)
-        }));
+        cases.extend(
+            [Method::HartleyRoss, Method::MeanOfRatios]
+                .map(|method| pairs(id, about, method, &draws, 1.0, 2.0).exact().must(Flags::UNBOUNDED_RATIO)),
+        );
     }
     let black = [(0.0, 0.0); 3];
     for method in [Method::Ratio, Method::Quenouille, Method::Beale, Method::Tin, Method::Mickey, Method::HartleyRoss] {

@@ -31,7 +31,8 @@ fn in_each_precision(precision: Precision) -> Vec<Case> {
         for scale in precision.of([1e-25_f64, 1e-12, 1e18], [1e-25, 1e-100, 1e100]) {
             let scale = precision.rounded(scale);
             let draws = [(1.0, scale), (2.0, 3.0 * scale), (4.0, 2.0 * scale)];
-            let (beale, tin) = ((14.0 / 3.0 + 1.0 / 6.0) / (13.0 / 3.0), 7.0 / 6.0 * (1.0 + (0.5 / (14.0 / 3.0) - 0.25) / 3.0));
+            let (beale, tin) =
+                ((14.0 / 3.0 + 1.0 / 6.0) / (13.0 / 3.0), 7.0 / 6.0 * (1.0 + (0.5 / (14.0 / 3.0) - 0.25) / 3.0));
             let right = if method == Method::Beale { beale } else { tin };
             cases.push(one("E5", "h² leaves the range", method, &draws, scale, right).digits(digits));
         }

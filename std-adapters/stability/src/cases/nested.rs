@@ -13,9 +13,10 @@ use ratiocv_core::{ChannelEstimate, Draw, Flags, Integrals, Lanes, PathProduct, 
 
 pub(super) fn cases() -> Vec<Case> {
     let mut cases = both(in_each_precision);
-    for (about, alpha, right, digits) in
-        [("Pareto, α = 1.5: no variance", 1.5, 3.0, 2.0), ("Pareto, α = 0.9: no mean", 0.9, f64::NAN, f64::NEG_INFINITY)]
-    {
+    for (about, alpha, right, digits) in [
+        ("Pareto, α = 1.5: no variance", 1.5, 3.0, 2.0),
+        ("Pareto, α = 0.9: no mean", 0.9, f64::NAN, f64::NEG_INFINITY),
+    ] {
         let draws = Draws::new(1_000_000, move |i| Draw::new(libm::pow((i as f64 + 0.5) / 1e6, -1.0 / alpha), 1.0));
         let ask = Ask::One { method: Method::Plain, draws, then: None, integral: 1.0 };
         let id = if alpha > 1.0 { "G6" } else { "G7" };
@@ -29,8 +30,16 @@ fn in_each_precision(precision: Precision) -> Vec<Case> {
         Case::new(id, about, precision, Ask::Probe(probes), right).digits(digits)
     };
     let about = "f = 3h, h = 10⁻¹⁰⁰⁰ and less";
+    // 0.1 is rounded, 400 times.
+    let up_and_down = libm::pow(precision.rounded(0.1) * 10.0, 400.0);
     let mut cases = vec![
-        probe("G1", "400 factors of 0.1 and 400 of 10", Probes::of::<UpAndDown>(precision), 1.0, 6.0),
+        probe(
+            "G1",
+            "400 factors of 0.1 and 400 of 10",
+            Probes::of::<UpAndDown>(precision),
+            up_and_down,
+            precision.of(7.0, 12.5),
+        ),
         probe("G3", about, Probes::of::<Deep>(precision), 3.0, precision.of(7.0, 15.0)),
         probe("G4", "H = 0 on half of the paths", Probes::of::<Trivial>(precision), 1.0, precision.of(7.0, 15.0)),
         probe("G5", "H = 0 in one channel: how many others notice", Probes::of::<Chromatic>(precision), 0.0, 17.0),
@@ -141,7 +150,8 @@ impl Probe for Chromatic {
 }
 
 /// Paths of two steps, x then y, all equally likely: f = f₁(x)·f₂(x, y), and h likewise.
-const PATHS: [([f64; 2], [[f64; 2]; 2]); 2] = [([1.0, 0.5], [[2.0, 1.0], [4.0, 3.0]]), ([3.0, 1.5], [[1.0, 0.5], [1.0, 1.5]])];
+const PATHS: [([f64; 2], [[f64; 2]; 2]); 2] =
+    [([1.0, 0.5], [[2.0, 1.0], [4.0, 3.0]]), ([3.0, 1.5], [[1.0, 0.5], [1.0, 1.5]])];
 
 struct Joint;
 

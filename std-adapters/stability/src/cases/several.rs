@@ -69,8 +69,11 @@ fn in_each_precision(precision: Precision) -> Vec<Case> {
     // f̄ = 2.375, h̄ = 0.6875.
     let ratio = 2.375 / 0.6875;
     let about = "a mixture of the same auxiliary";
-    cases.push(two("E9", about, Several::RandomMixture, affine(1.0), [1.0, 1.0], ratio).digits(digits).must(Flags::RANK));
-    let gone = two("E11", "weights 1 and −1 of the same", Several::Mixture([1.0, -1.0]), affine(1.0), [1.0, 1.0], 2.375);
+    cases.push(
+        two("E9", about, Several::RandomMixture, affine(1.0), [1.0, 1.0], ratio).digits(digits).must(Flags::RANK),
+    );
+    let gone =
+        two("E11", "weights 1 and −1 of the same", Several::Mixture([1.0, -1.0]), affine(1.0), [1.0, 1.0], 2.375);
     cases.push(gone.exact().must(Flags::DENOM_ZERO));
     let cancel = Draws::new(2, |i| {
         let x = 1.0 + i as f64;
