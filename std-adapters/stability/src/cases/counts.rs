@@ -15,7 +15,8 @@ pub(super) fn cases() -> Vec<Case> {
         Case::new(id, about, precision, Ask::One { method, draws, then, integral: 1.0 }, right)
     };
     let ones = Draws::new(1 << 10, |_| Draw::new(1.0, 1.0)).doubled(15);
-    cases.push(merged("D1", "2²⁵ ones: counters of f32 stick", Single, Method::Plain, ones, None, 1.0).exact());
+    let d1 = merged("D1", "2²⁵ ones: sums of f32 stick at 2²⁴", Single, Method::Plain, ones, None, 1.0);
+    cases.push(d1.exact().naive(mean_of_ones));
     let tenths = Draws::new(10_000_000, |_| Draw::new(0.1, 1.0));
     let right = f64::from(0.1_f32);
     cases.push(merged("D2", "10⁷ times 0.1", Single, Method::Plain, tenths, None, right).exact());
@@ -23,6 +24,12 @@ pub(super) fn cases() -> Vec<Case> {
     let case = merged("D3", "2²⁴ uniform numbers", Single, Method::Variance(1.0), uniform, None, variance_of_uniform());
     cases.push(case.digits(6.0).naive(welford_of_uniform));
     cases
+}
+
+/// Σ1/N with a sum in `f32`.
+fn mean_of_ones() -> f64 {
+    let sum = (0..1 << 25).fold(0.0_f32, |sum, _| core::hint::black_box(sum + 1.0));
+    f64::from(sum) / f64::from(1 << 25)
 }
 
 /// The variance of D3's numbers, in `f64` about an exact shift.
