@@ -77,11 +77,14 @@ impl Right {
     }
 }
 
-/// Correct decimal digits of `ours`: 17 where it is `right`, to the bit or both NaN; −∞ for a NaN or an infinity
-/// that should be a number; of the absolute error where `right` is 0.
+/// Correct decimal digits of `ours`: 17 where it is `right`, to the bit or both NaN; 16 for a zero of the other sign;
+/// −∞ for a NaN or an infinity that should be a number; of the absolute error where `right` is 0.
 pub fn digits_of(ours: f64, right: f64) -> f64 {
-    if ours == right || (ours.is_nan() && right.is_nan()) {
+    if ours.to_bits() == right.to_bits() || (ours.is_nan() && right.is_nan()) {
         return EXACT;
+    }
+    if ours == right {
+        return EXACT - 1.0;
     }
     let error = if right == 0.0 { ours.abs() } else { ((ours - right) / right).abs() };
     let digits = -libm::log10(error);

@@ -4,7 +4,7 @@ use crate::case::Precision;
 use crate::draws::Draws;
 use crate::method::{Everything, One};
 use core::fmt::Debug;
-use ratiocv_core::moments::{Accumulate, Comoments, ComomentsState, Merge, Moments};
+use ratiocv_core::moments::{Accumulate, Comoments, ComomentsState, Merge, Moments, Save};
 use ratiocv_core::{Draw, Lanes, Scalar, Spectrum};
 use ratiocv_simd::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 
@@ -17,16 +17,19 @@ pub(crate) enum Call {
     Batch,
     /// Split in halves, down to single draws where they are few, and merged.
     Tree,
+    /// Half of them; the rest are added to what was loaded from the numbers that were saved.
+    Saved,
 }
 
 impl Call {
-    pub(crate) const ALL: [Self; 3] = [Self::Singly, Self::Batch, Self::Tree];
+    pub(crate) const ALL: [Self; 4] = [Self::Singly, Self::Batch, Self::Tree, Self::Saved];
 
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Singly => "draw by draw",
             Self::Batch => "in a batch",
             Self::Tree => "merged in a tree",
+            Self::Saved => "saved and loaded",
         }
     }
 }
@@ -82,10 +85,8 @@ type Five<V> = Comoments<V, 5>;
 kept!(One, 1, Everything:
     [f32, Spectrum<f32, 3>, Spectrum<f32, 16>, F32x4, F32x8, F32x16],
     [f64, Spectrum<f64, 3>, Spectrum<f64, 16>, F64x2, F64x4, F64x8]);
-kept!(ComomentsState<f64, 2>, 2, Two:
-    [f32, Spectrum<f32, 3>, Spectrum<f32, 16>, F32x4, F32x8, F32x16],
-    [f64, Spectrum<f64, 3>, Spectrum<f64, 16>, F64x2, F64x4, F64x8]);
 // Large, and slow to compile: one scalar, one array, one pack.
+kept!(ComomentsState<f64, 2>, 2, Two: [f32, Spectrum<f32, 3>, F32x4], [f64, Spectrum<f64, 3>, F64x2]);
 kept!(ComomentsState<f64, 5>, 5, Five: [f32, Spectrum<f32, 3>, F32x4], [f64, Spectrum<f64, 3>, F64x2]);
 
 /// The channel of the case, of `lanes`.
@@ -113,7 +114,7 @@ fn in_lanes<V: Lanes, const K: usize>(draws: &Draws<K>, innocent: bool, i: usize
 pub(crate) fn channels<V, M, const K: usize>(parts: &Parts<'_, K>, call: Call) -> Channels<M::Channel>
 where
     V: Lanes,
-    M: Accumulate<Draw<V, K>> + Merge + Moments<Lanes = V> + Clone + Default + Debug,
+    M: Accumulate<Draw<V, K>> + Merge + Save + Moments<Lanes = V> + Clone + Default + Debug,
 {
     let moments = merged::<V, M, K>(parts, call).closed();
     Channels { count: moments.count(), channels: (0..V::LANES).map(|i| moments.channel(i)).collect() }
@@ -122,53 +123,87 @@ where
 fn merged<V, M, const K: usize>(parts: &Parts<'_, K>, call: Call) -> M
 where
     V: Lanes,
-    M: Accumulate<Draw<V, K>> + Merge + Clone + Default,
+    M: Accumulate<Draw<V, K>> + Merge + Save + Clone + Default,
 {
     let mut whole = M::default();
     for draws in &parts.parts {
         let draw = |i| in_lanes::<V, K>(draws, parts.innocent, i);
-        let mut part = match call {
-            Call::Tree => tree::<V, M, K>(0, draws.count, if draws.count <= 1024 { 1 } else { 999 }, &draw),
-            Call::Singly => some::<V, M, K>(0, draws.count, false, &draw),
-            Call::Batch => some::<V, M, K>(0, draws.count, true, &draw),
-        };
+        let mut part = M::default();
+        match call {
+            Call::Tree => part = tree::<V, M, K>(0, draws.count, if draws.count <= 1024 { 1 } else { 999 }, &draw),
+            Call::Singly => add(&mut part, 0, draws.count, 1, &draw),
+            Call::Batch => add(&mut part, 0, draws.count, AT_ONCE, &draw),
+            Call::Saved => {
+                add(&mut part, 0, draws.count / 2, 1, &draw);
+                let words = saved(&mut part);
+                part = loaded(&words);
+                add(&mut part, draws.count / 2, draws.count, 1, &draw);
+            }
+        }
         for _ in 0..draws.doublings {
             let half = part.clone();
-            part.merge(&half);
+            append(&mut part, &half);
         }
-        whole.merge(&part);
+        append(&mut whole, &part);
     }
     whole
 }
 
-/// Draws `start`..`end`, at once or one by one. Not inlined: the accumulators are large.
+/// Draws of a batch.
+const AT_ONCE: usize = 1 << 15;
+
+/// Adds draws `start`..`end` in batches of `at_once`; a batch of one is a draw added by itself. This and `append` are
+/// out of line, and the only callers of the accumulators, whose code is large and is compiled for each caller.
 #[inline(never)]
-fn some<V, M, const K: usize>(start: usize, end: usize, batch: bool, draw: &dyn Fn(usize) -> Draw<V, K>) -> M
-where
+pub(crate) fn add<V, M, const K: usize>(
+    moments: &mut M,
+    start: usize,
+    end: usize,
+    at_once: usize,
+    draw: &dyn Fn(usize) -> Draw<V, K>,
+) where
     V: Lanes,
-    M: Accumulate<Draw<V, K>> + Default,
+    M: Accumulate<Draw<V, K>>,
 {
-    let mut moments = M::default();
-    if batch {
-        let mut at = start..end;
-        moments.add_from((end - start) as u64, || draw(at.next().unwrap_or(start)));
-    } else {
-        (start..end).for_each(|i| moments.add(draw(i)));
+    let mut batch = Vec::with_capacity(at_once.min(end - start));
+    for from in (start..end).step_by(at_once) {
+        batch.clear();
+        batch.extend((from..end.min(from + at_once)).map(draw));
+        moments.add_batch(&batch);
     }
-    moments
 }
 
 #[inline(never)]
+fn append<M: Merge>(moments: &mut M, later: &M) {
+    moments.merge(later);
+}
+
+/// All numbers of `moments`.
+pub(crate) fn saved<M: Save>(moments: &mut M) -> Vec<u64> {
+    let mut words = Vec::new();
+    moments.words(&mut |word| words.push(*word));
+    words
+}
+
+/// Moments of these numbers.
+pub(crate) fn loaded<M: Save + Default>(words: &[u64]) -> M {
+    let (mut moments, mut next) = (M::default(), words.iter());
+    moments.words(&mut |word| *word = next.next().copied().unwrap_or_default());
+    moments
+}
+
 fn tree<V, M, const K: usize>(start: usize, end: usize, leaf: usize, draw: &dyn Fn(usize) -> Draw<V, K>) -> M
 where
     V: Lanes,
     M: Accumulate<Draw<V, K>> + Merge + Default,
 {
+    let mut whole = M::default();
     if end - start <= leaf {
-        return some(start, end, false, draw);
+        add(&mut whole, start, end, 1, draw);
+    } else {
+        let at = start + (end - start) / 2;
+        append(&mut whole, &tree::<V, M, K>(start, at, leaf, draw));
+        append(&mut whole, &tree::<V, M, K>(at, end, leaf, draw));
     }
-    let at = start + (end - start) / 2;
-    let mut whole = tree::<V, M, K>(start, at, leaf, draw);
-    whole.merge(&tree(at, end, leaf, draw));
     whole
 }

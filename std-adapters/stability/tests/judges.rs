@@ -15,7 +15,7 @@ fn digits_are_those_of_the_relative_error() {
     assert_eq!(digits_of(f64::NAN, 1.0), f64::NEG_INFINITY);
     assert_eq!(digits_of(f64::INFINITY, 1.0), f64::NEG_INFINITY);
     assert_eq!(digits_of(1.0, f64::NAN), f64::NEG_INFINITY);
-    assert_eq!(digits_of(1e-3, 0.0), 3.0);
+    assert_eq!((digits_of(1e-3, 0.0), digits_of(-0.0, 0.0), digits_of(0.0, 0.0)), (3.0, 16.0, 17.0));
 }
 
 #[test]
