@@ -213,6 +213,9 @@ pub struct StabilityArguments {
     /// How to print the table
     #[arg(long, value_enum, default_value_t = StabilityFormat::Table)]
     pub format: StabilityFormat,
+    /// Judge the textbook's formulas in place of the library's: what a table of failures looks like
+    #[arg(long)]
+    pub textbook: bool,
 }
 
 /// How a table of stiff cases is printed.

@@ -20,7 +20,8 @@ pub fn run(arguments: &StabilityArguments, out: &mut dyn Write) -> Result<(), Fa
         }
         chosen.extend(named);
     }
-    let table = Table::of(if arguments.only.is_empty() { cases::all() } else { chosen }, Contender::Ours);
+    let contender = if arguments.textbook { Contender::Naive } else { Contender::Ours };
+    let table = Table::of(if arguments.only.is_empty() { cases::all() } else { chosen }, contender);
     match arguments.format {
         StabilityFormat::Table => writeln!(out, "{table}")?,
         StabilityFormat::Json => {
@@ -32,6 +33,10 @@ pub fn run(arguments: &StabilityArguments, out: &mut dyn Write) -> Result<(), Fa
     out.flush()?;
     match table.failures().count() as u64 {
         0 => Ok(()),
+        failed if arguments.textbook => {
+            let what = format!("{} failed", rows(failed));
+            Err(Fault::data(what, "these are the textbook's; without --textbook the library's own are judged"))
+        }
         failed => {
             let what = format!("{} failed", rows(failed));
             Err(Fault::data(what, "the table says which; please report it with the output of --format json"))
