@@ -151,7 +151,7 @@ impl Case {
     /// With these flags allowed beside advice.
     #[must_use]
     pub fn may(mut self, flags: Flags) -> Self {
-        self.right.may = self.right.may | flags;
+        self.right.may |= flags;
         self
     }
 

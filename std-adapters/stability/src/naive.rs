@@ -201,10 +201,9 @@ fn five<S: Scalar>(draws: &Draws<5>) -> [S; 6] {
     }
     for pivot in 0..6 {
         for other in (0..6).filter(|other| *other != pivot) {
-            let factor = a[other][pivot] / a[pivot][pivot];
-            for column in 0..7 {
-                a[other][column] = a[other][column] - factor * a[pivot][column];
-            }
+            let (line, above) = (a[other], a[pivot]);
+            let factor = line[pivot] / above[pivot];
+            a[other] = core::array::from_fn(|column| line[column] - factor * above[column]);
         }
     }
     core::array::from_fn(|k| a[k][6] / a[k][k])

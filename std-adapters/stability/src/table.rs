@@ -2,7 +2,7 @@
 
 use crate::case::Case;
 use crate::row::{Contender, Row, shown_digits};
-use comfy_table::{CellAlignment, ContentArrangement, LineStyle, TableStyle};
+use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, TableStyle};
 use core::fmt;
 
 const WIDTH: u16 = 132;
@@ -144,6 +144,10 @@ impl fmt::Display for Table {
         table.force_no_tty().set_width(WIDTH).set_header(HEADER);
         for row in &self.rows {
             table.add_row(cells(row));
+        }
+        // Names are looked for, and not broken.
+        if let Some(names) = table.column_mut(0) {
+            names.set_constraint(ColumnConstraint::ContentWidth);
         }
         for column in table.column_iter_mut().filter(|column| (4..9).contains(&column.index)) {
             column.set_cell_alignment(CellAlignment::Right);

@@ -136,11 +136,11 @@ fn polynomials(cases: &mut Vec<Case>) {
         |of: &dyn Fn(usize) -> f64| libm::sqrt(mean_and_variance(&(0..21).map(of).collect::<Vec<_>>(), 0.0).1);
     let kappa = condition_of_wampler();
     for (set, id, about) in [
-        (1, "StRD-Wampler1", "y = 1 + x + … + x⁵"),
-        (2, "StRD-Wampler2", "y = 1 + x/10 + … + x⁵/10⁵"),
-        (3, "StRD-Wampler3", "the same as 1, with noise"),
-        (4, "StRD-Wampler4", "noise a hundred times larger"),
-        (5, "StRD-Wampler5", "noise ten thousand times larger"),
+        (1, "StRD-Wampler1", "y = 1 + x + … + x⁵: κ = 2.7·10⁶"),
+        (2, "StRD-Wampler2", "y = 1 + x/10 + … + x⁵/10⁵: κ = 2.7·10⁶"),
+        (3, "StRD-Wampler3", "the same as 1, with noise: κ = 2.7·10⁶"),
+        (4, "StRD-Wampler4", "noise a hundred times larger: κ = 2.7·10⁶"),
+        (5, "StRD-Wampler5", "noise ten thousand times larger: κ = 2.7·10⁶"),
     ] {
         // Of Wampler2 in units of 10⁻⁵, where it is whole.
         let of_y = deviation(&|i| if set == 2 { libm::round(1e5 * wampler(2, i)) } else { wampler(set, i) });
