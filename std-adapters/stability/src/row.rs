@@ -105,6 +105,11 @@ impl Row {
     pub fn passes(&self) -> bool {
         self.broken.is_none()
     }
+
+    /// Whether a flag stands in for digits that are not there.
+    pub fn excused(&self) -> bool {
+        self.passes() && self.digits < self.needed
+    }
 }
 
 /// "17" is every bit.

@@ -32,6 +32,7 @@ struct Line<'a> {
     naive_digits: Option<f64>,
     runs: usize,
     passes: bool,
+    flagged_in_place_of_right: bool,
     broken: Option<&'a str>,
 }
 
@@ -46,10 +47,12 @@ impl Table {
         self.rows.iter().filter(|row| !row.passes())
     }
 
-    /// How many rows, runs and failures.
+    /// How many rows, runs, rows that are not right but flagged, and failures.
     pub fn summary(&self) -> String {
         let runs: usize = self.rows.iter().map(|row| row.runs).sum();
-        format!("{} rows, {runs} runs, {} failed", self.rows.len(), self.failures().count())
+        let flagged = self.rows.iter().filter(|row| row.excused()).count();
+        let failed = self.failures().count();
+        format!("{} rows, {runs} runs, {flagged} flagged in place of right, {failed} failed", self.rows.len())
     }
 
     /// One JSON object on one line. Digits are at most 17, for every bit, and at least −1, for none.
@@ -86,6 +89,7 @@ fn line(row: &Row) -> Line<'_> {
         naive_digits: row.naive_digits.map(digits),
         runs: row.runs,
         passes: row.passes(),
+        flagged_in_place_of_right: row.excused(),
         broken: row.broken.as_deref(),
     }
 }
@@ -116,8 +120,17 @@ pub(crate) fn cells(row: &Row) -> [String; 11] {
         row.naive.map_or_else(|| "–".into(), |naive| if naive.is_nan() { "NaN".into() } else { short(naive) }),
         format!("{} ({})", shown_digits(row.digits), shown_digits(row.needed)),
         row.ours.flags.to_string(),
-        if row.passes() { "ok".into() } else { "FAILS".into() },
+        verdict(row).into(),
     ]
+}
+
+/// Right, not right but not silent, or wrong.
+fn verdict(row: &Row) -> &'static str {
+    match (row.passes(), row.excused()) {
+        (false, _) => "FAILS",
+        (_, true) => "flagged",
+        _ => "ok",
+    }
 }
 
 /// The columns.

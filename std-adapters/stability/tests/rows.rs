@@ -61,6 +61,8 @@ fn tables_and_pages() {
     );
     let page = table.page();
     assert!(page.contains("<h2>A. Denominators</h2>") && !page.contains("<h2>B.") && !page.contains("http"), "{page}");
+    let a8 = Table::of(cases::named("A8"), Contender::Ours);
+    assert!(a8.summary().ends_with("1 flagged in place of right, 0 failed"), "{}", a8.summary());
     let broken = Table::of(cases::named("A1"), Contender::Naive);
     assert!(broken.page().contains("class=\"bad\">FAILS: textbook") && broken.to_string().contains("2 failed"));
 }
