@@ -2,10 +2,10 @@
 
 use core::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use core::time::Duration;
-use ratiocv_core::moments::{Merge, Moments, Save};
+use ratiocv_core::moments::{Accumulate, Comoments, Merge, Moments, Save};
 use ratiocv_core::{
-    CrossFitted, Difference, Estimate, Estimator, HartleyRoss, Lanes, Mickey, Plain, Problem, RatioOfMeans, Reads,
-    Spectrum, Uniform, WithIntegral,
+    CrossFitted, Difference, Draw, Estimate, Estimator, HartleyRoss, Lanes, Mickey, Plain, Problem, RatioOfMeans,
+    Reads, Spectrum, Uniform, WithIntegral,
 };
 use ratiocv_threads::{CHUNK, MergeTree, Run, Stopped, integrate, stream};
 
@@ -139,4 +139,16 @@ fn every_prefix_of_a_tree_survives_saving() {
         HartleyRoss.defensive(0.1).expect("a weight"),
         CrossFitted(Difference::default())
     );
+}
+
+/// The sign and the payload of a NaN are the processor's choice, those in a checkpoint are not.
+#[test]
+fn checkpoints_have_one_nan() {
+    let mut moments = Comoments::<f64>::default();
+    for f in [0xfff8_0000_0000_0000, 0x7ff8_beef_0000_0000].map(f64::from_bits) {
+        moments.add(Draw::new(f, 1.0));
+    }
+    let mut nans = Vec::new();
+    moments.words(&mut |word| nans.extend(f64::from_bits(*word).is_nan().then_some(*word)));
+    assert!(!nans.is_empty() && nans.iter().all(|nan| *nan == f64::NAN.to_bits()), "{nans:x?}");
 }

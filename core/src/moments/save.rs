@@ -42,10 +42,12 @@ pub trait Save {
     fn words(&mut self, each: &mut dyn FnMut(&mut u64));
 }
 
-/// Each lane's number.
+/// Each lane's number; every NaN as the one of `f64::NAN`, because signs and payloads of NaNs are the processor's
+/// choice (IEEE 754-2019, 6.2) and checkpoints are not.
 pub(crate) fn lanes<W: Lanes<Scalar = f64>>(lanes: &mut W, each: &mut dyn FnMut(&mut u64)) {
     *lanes = W::from_fn(|lane| {
-        let mut word = lanes.get(lane).to_bits();
+        let number = lanes.get(lane);
+        let mut word = if planted!("save_nan": number.is_nan(), false) { f64::NAN.to_bits() } else { number.to_bits() };
         each(&mut word);
         f64::from_bits(word)
     });

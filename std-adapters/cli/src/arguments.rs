@@ -82,6 +82,9 @@ pub enum Command {
     #[command(after_long_help = format!("{ESTIMATE_FORMAT}\n\n{ESTIMATE_EXAMPLES}\n\n{EXIT_CODES}"))]
     #[command(after_help = format!("{ESTIMATE_EXAMPLES}\n\n{EXIT_CODES}"))]
     Estimate(EstimateArguments),
+    /// Run stiff cases with known answers, beside the textbook formulas
+    #[command(after_help = format!("A row that fails makes the exit code 1.\n\n{EXIT_CODES}"))]
+    Stability(StabilityArguments),
 }
 
 /// Options of `report`.
@@ -199,6 +202,31 @@ pub struct RenderArguments {
     /// Add the samples of a file that was saved with another seed (repeatable)
     #[arg(long, value_name = "FILE:SEED", value_parser = file_and_seed)]
     pub merge: Vec<(PathBuf, u64)>,
+}
+
+/// Options of `stability`.
+#[derive(Clone, Debug, Args)]
+pub struct StabilityArguments {
+    /// Only this case, or this section: A to H, or StRD (repeatable)
+    #[arg(long, value_name = "ID")]
+    pub only: Vec<String>,
+    /// How to print the table
+    #[arg(long, value_enum, default_value_t = StabilityFormat::Table)]
+    pub format: StabilityFormat,
+    /// Judge the textbook's formulas in place of the library's: what a table of failures looks like
+    #[arg(long)]
+    pub textbook: bool,
+}
+
+/// How a table of stiff cases is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum StabilityFormat {
+    /// For people
+    Table,
+    /// One object, on one line
+    Json,
+    /// A page of its own
+    Html,
 }
 
 /// See [`LightChoice`].

@@ -1,4 +1,4 @@
-//! The `ratiocv` command: `report`, `render`, `list` and `estimate`.
+//! The `ratiocv` command: `report`, `render`, `list`, `estimate` and `stability`.
 //!
 //! `estimate` is a pipe of small parts: [`rows`] cuts text into fields, [`columns`] gives the fields
 //! their meaning, [`number`] reads one, [`intake`] streams draws into accumulators, [`verdict`] turns
@@ -19,6 +19,7 @@ pub mod render;
 pub mod report;
 pub mod rows;
 pub mod scene;
+pub mod stability;
 pub mod style;
 pub mod verdict;
 pub mod words;

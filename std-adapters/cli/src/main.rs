@@ -2,7 +2,7 @@
 
 use clap::Parser;
 use ratiocv_cli::arguments::{Arguments, Command};
-use ratiocv_cli::{estimate, list, render, report, style};
+use ratiocv_cli::{estimate, list, render, report, stability, style};
 use std::io::{BufWriter, IsTerminal, Write, stderr, stdout};
 use std::process::ExitCode;
 
@@ -17,6 +17,7 @@ fn main() -> ExitCode {
         Some(Command::Render(arguments)) => render::run(&arguments, &mut out, &mut notes),
         Some(Command::List) => list::run(&mut out),
         Some(Command::Estimate(arguments)) => estimate::run(&arguments, &mut out, &mut notes),
+        Some(Command::Stability(arguments)) => stability::run(&arguments, &mut out),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

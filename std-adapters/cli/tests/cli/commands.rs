@@ -14,6 +14,7 @@ fn help_has_examples_and_exit_codes() {
         &["render", "--help"],
         &["estimate", "--help"],
         &["estimate", "-h"],
+        &["stability", "--help"],
     ] {
         let run = ratiocv(arguments, "");
         assert_eq!((run.code, run.err.as_str()), (0, ""));

@@ -8,6 +8,7 @@ mod random_bytes;
 mod render;
 mod sample;
 mod scene_report;
+mod stability;
 mod streams;
 mod support;
 mod usage;
