@@ -1,20 +1,15 @@
 //! What the channels of an image are: three, or one where they are all equal.
 
+use crate::path::Traced;
 use glam::Vec3;
 use ratiocv_core::{Lanes, Spectrum};
 use ratiocv_simd::functions::Elementary;
-
-mod sealed {
-    pub trait Sealed {}
-    impl Sealed for f32 {}
-    impl Sealed for ratiocv_core::Spectrum<f32, 3> {}
-}
 
 /// The colours that a scene is rendered in.
 ///
 /// *Implemented by* `Spectrum<f32, 3>`, linear RGB, and by `f32` for scenes whose channels are all equal;
 /// *called by* the path tracer.
-pub trait Colour: Lanes<Scalar = f32> + sealed::Sealed {
+pub trait Colour: Lanes<Scalar = f32> + Traced {
     /// RGB in this type; of equal channels the first.
     fn of(rgb: Vec3) -> Self;
     /// `change` of every channel.

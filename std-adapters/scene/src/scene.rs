@@ -9,7 +9,7 @@ use crate::light::{Emitter, Lights};
 use crate::material::{Surface, within};
 use crate::medium::Filled;
 use crate::needs::{Needs, Options};
-use crate::path::{BLOCK, Block, Kernel, Samples, Term, Terms, everything, kernel};
+use crate::path::{BLOCK, Block, Kernel, Samples, Term, Terms};
 
 /// Where paths without a limit begin to end by Russian roulette if the description says nothing: between
 /// white walls they would never end.
@@ -115,7 +115,7 @@ impl<C: Colour> Scene<C> {
             terms: Terms::new(&needs),
             needs,
             size: description.size,
-            kernel: kernel(&needs),
+            kernel: C::kernel(&needs),
         })
     }
 
@@ -135,7 +135,7 @@ impl<C: Colour> Scene<C> {
     /// ```
     #[must_use]
     pub fn with_everything(self) -> Self {
-        Self { kernel: everything(), ..self }
+        Self { kernel: C::everything(), ..self }
     }
 
     /// What it needs, and what is left out.

@@ -43,8 +43,8 @@ impl<C: Colour> Lights<C> {
         for ((lamps, number), seen) in lamps().zip(seen.iter_mut()) {
             if self.choice == LightChoice::Local {
                 let lamp = lamps.lamp(number);
-                for lane in 0..LANES {
-                    seen[lane] = lamp.received(at.get(lane), normals.get(lane), cosine);
+                for (lane, seen) in seen.iter_mut().enumerate() {
+                    *seen = lamp.received(at.get(lane), normals.get(lane), cosine);
                 }
                 in_memory(seen);
             }
@@ -181,9 +181,9 @@ mod tests {
                     let u = random.lane();
                     let mut seen = vec![[1.0; LANES]; count];
                     let choices = lights.choose_each::<true>(&at, &normals, &u, &mut seen);
-                    for lane in 0..LANES {
+                    for (lane, u) in u.into_iter().enumerate() {
                         let place = (at.get(lane), Facing::Cosine(normals.get(lane)));
-                        let alone = lights.choose::<true>(place, u[lane], &mut weights);
+                        let alone = lights.choose::<true>(place, u, &mut weights);
                         let (Some(ours), Some(alone)) = (lights.chosen::<true>(&choices, lane), alone) else {
                             assert_eq!(lights.chosen::<true>(&choices, lane).is_some(), alone.is_some());
                             none += 1;

@@ -18,7 +18,7 @@ use ratiocv_simd::Work;
 
 /// What to trace.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Block {
+pub struct Block {
     pub(crate) pixel: [u32; 2],
     pub(crate) block: u64,
     pub(crate) count: usize,

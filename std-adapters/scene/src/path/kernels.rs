@@ -6,6 +6,7 @@ use crate::needs::Needs;
 use crate::path::Samples;
 use crate::path::direct::Direct;
 use crate::path::kernel::{Block, Paths};
+use ratiocv_core::Spectrum;
 use ratiocv_simd::at_best_level;
 
 /// Traces a block of samples.
@@ -39,7 +40,7 @@ fn trace_direct<C: Colour, const AUXILIARY: bool>(scene: &Scene<C>, block: Block
 ///
 /// Techniques and conductors come in four combinations, because others cost next to nothing more in the kernel
 /// with both.
-pub(crate) fn kernel<C: Colour>(needs: &Needs) -> Kernel<C> {
+fn kernel<C: Colour>(needs: &Needs) -> Kernel<C> {
     if needs.direct_alone() {
         return if needs.auxiliary { trace_direct::<C, true> } else { trace_direct::<C, false> };
     }
@@ -59,6 +60,30 @@ pub(crate) fn kernel<C: Colour>(needs: &Needs) -> Kernel<C> {
 }
 
 /// The kernel that leaves nothing out.
-pub(crate) fn everything<C: Colour>() -> Kernel<C> {
+fn everything<C: Colour>() -> Kernel<C> {
     if C::LANES > 1 { trace::<C, true, true, true, true, true> } else { trace::<C, false, true, true, true, true> }
 }
+
+/// Colours that kernels are compiled for, in this crate: generic to the end, every crate that renders would compile
+/// all of them again, for minutes. It also keeps [`Colour`] from being implemented elsewhere.
+pub trait Traced: Sized {
+    /// The kernel that the scene needs.
+    fn kernel(needs: &Needs) -> Kernel<Self>;
+    /// The kernel that leaves nothing out.
+    fn everything() -> Kernel<Self>;
+}
+
+macro_rules! traced {
+    ($($colour:ty)*) => {$(
+        impl Traced for $colour {
+            fn kernel(needs: &Needs) -> Kernel<Self> {
+                kernel(needs)
+            }
+            fn everything() -> Kernel<Self> {
+                everything()
+            }
+        }
+    )*};
+}
+
+traced!(f32 Spectrum<f32, 3>);

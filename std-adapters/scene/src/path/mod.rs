@@ -9,7 +9,7 @@ mod terms;
 mod vertex;
 
 pub(crate) use kernel::Block;
-pub(crate) use kernels::{Kernel, everything, kernel};
+pub(crate) use kernels::{Kernel, Traced};
 pub use samples::{BLOCK, Samples};
 pub(crate) use terms::Terms;
 pub use terms::{Technique, Term};
