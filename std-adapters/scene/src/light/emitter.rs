@@ -2,6 +2,7 @@
 
 use crate::frame::{Frame, turn};
 use crate::geometry::{Cube, Rectangle, Solid, Sphere, Triangle};
+use crate::lanes::{LANES, Lane, Vectors, in_memory};
 use core::f32::consts::PI;
 use glam::Vec3;
 
@@ -44,6 +45,23 @@ impl Towards {
         let direction = to / distance;
         let cos = -normal.dot(direction);
         (cos > 0.0 && distance > 0.0).then_some(Self { direction, distance, inverse_pdf: cos * area / square })
+    }
+
+    /// By the cone in which a sphere is seen; `inverse_pdf` is 0 from inside. Without branches, for places side by side.
+    #[inline(always)]
+    fn to_sphere(from: Vec3, (center, radius): (Vec3, f32), [u, v]: [f32; 2]) -> Self {
+        let to_center = center - from;
+        let square = to_center.dot(to_center);
+        let cap = cone(radius, square);
+        // 1 − cos, which keeps its digits in a narrow cone.
+        let versine = u * cap;
+        let sin2 = versine * (2.0 - versine);
+        let (sin, cos) = (sin2.sqrt(), 1.0 - versine);
+        let [x, y] = turn(v);
+        let distance = square.sqrt();
+        let direction = Frame::about(to_center / distance).to_world(Vec3::new(sin * x, sin * y, cos));
+        let half_chord = (radius * radius - square * sin2).max(0.0).sqrt();
+        Self { direction, distance: distance * cos - half_chord, inverse_pdf: 2.0 * PI * cap }
     }
 }
 
@@ -110,6 +128,15 @@ impl Emitter {
         matches!(self, Self::Point(_))
     }
 
+    /// Centre and radius of a sphere that shines outwards.
+    #[inline(always)]
+    pub(crate) const fn ball(&self) -> Option<(Vec3, f32)> {
+        match self {
+            Self::Sphere(sphere) if sphere.side > 0.0 => Some((sphere.center, sphere.radius)),
+            _ => None,
+        }
+    }
+
     /// Whether it can hide parts of itself.
     pub(crate) const fn hides_itself(&self) -> bool {
         matches!(self, Self::Mesh { .. })
@@ -138,24 +165,14 @@ impl Emitter {
 
     #[inline(always)]
     fn sample_sphere(sphere: &Sphere, from: Vec3, [u, v]: [f32; 2]) -> Option<Towards> {
-        let to_center = sphere.center - from;
-        let square = to_center.dot(to_center);
         if sphere.side < 0.0 {
             // By area: from a point of the sphere itself, cos·cos/distance² is the same everywhere.
             let outward = crate::frame::uniform_direction([u, v]);
             let area = 4.0 * PI * sphere.radius * sphere.radius;
             return Towards::to_area(from, (sphere.center + outward * sphere.radius, -outward), area);
         }
-        let cap = cone(sphere.radius, square)?;
-        // 1 − cos, which keeps its digits in a narrow cone.
-        let versine = u * cap;
-        let sin2 = versine * (2.0 - versine);
-        let (sin, cos) = (sin2.sqrt(), 1.0 - versine);
-        let [x, y] = turn(v);
-        let distance = square.sqrt();
-        let direction = Frame::about(to_center / distance).to_world(Vec3::new(sin * x, sin * y, cos));
-        let half_chord = (sphere.radius * sphere.radius - square * sin2).max(0.0).sqrt();
-        Some(Towards { direction, distance: distance * cos - half_chord, inverse_pdf: 2.0 * PI * cap })
+        let towards = Towards::to_sphere(from, (sphere.center, sphere.radius), [u, v]);
+        (towards.inverse_pdf > 0.0).then_some(towards)
     }
 
     fn sample_mesh(triangles: &[Triangle], areas: &[f32], from: Vec3, [u, v]: [f32; 2]) -> Option<Towards> {
@@ -176,7 +193,8 @@ impl Emitter {
             Self::Sphere(sphere) if sphere.side < 0.0 => by_area(4.0 * PI * sphere.radius * sphere.radius),
             Self::Sphere(sphere) => {
                 let to_center = sphere.center - from;
-                cone(sphere.radius, to_center.dot(to_center)).map_or(f32::INFINITY, |cap| 2.0 * PI * cap)
+                let cap = cone(sphere.radius, to_center.dot(to_center));
+                if cap > 0.0 { 2.0 * PI * cap } else { f32::INFINITY }
             }
             Self::Rectangle { area, .. } | Self::Cube { area, .. } => by_area(*area),
             Self::Mesh { areas, .. } => by_area(areas.last().copied().unwrap_or(0.0)),
@@ -185,11 +203,46 @@ impl Emitter {
     }
 }
 
-/// 1 − cos of the cone in which a sphere is seen; `None` from inside.
+/// 1 − cos of the cone in which a sphere is seen; 0 from inside.
 #[inline(always)]
-fn cone(radius: f32, square: f32) -> Option<f32> {
+fn cone(radius: f32, square: f32) -> f32 {
     let sin2 = radius * radius / square;
-    (sin2 < 1.0).then(|| sin2 / (1.0 + (1.0 - sin2).sqrt()))
+    let cap = sin2 / (1.0 + (1.0 - sin2).max(0.0).sqrt());
+    if sin2 < 1.0 { cap } else { 0.0 }
+}
+
+/// Directions from eight places.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Directions {
+    direction: Vectors,
+    distance: Lane,
+    inverse_pdf: Lane,
+}
+
+impl Directions {
+    /// To the spheres about `centers`, as [`Emitter::sample`] of one that is seen from outside.
+    #[inline(always)]
+    pub(crate) fn to_spheres(from: &Vectors, (centers, radii): (&Vectors, &Lane), u: [&Lane; 2]) -> Self {
+        let (from, centers, radii, [u, v]) = (*from, *centers, *radii, u.map(|u| *u));
+        let mut directions = Self { direction: Vectors::ZERO, distance: [0.0; LANES], inverse_pdf: [0.0; LANES] };
+        for lane in 0..LANES {
+            let sphere = (centers.get(lane), radii[lane]);
+            let towards = Towards::to_sphere(from.get(lane), sphere, [u[lane], v[lane]]);
+            directions.direction.set(lane, towards.direction);
+            directions.distance[lane] = towards.distance;
+            directions.inverse_pdf[lane] = towards.inverse_pdf;
+        }
+        in_memory(&mut directions);
+        directions
+    }
+
+    /// That of place `lane`; `None` from inside.
+    #[inline(always)]
+    pub(crate) fn get(&self, lane: usize) -> Option<Towards> {
+        let (direction, distance) = (self.direction.get(lane), self.distance[lane]);
+        let inverse_pdf = self.inverse_pdf[lane];
+        (inverse_pdf > 0.0).then_some(Towards { direction, distance, inverse_pdf })
+    }
 }
 
 #[cfg(test)]
@@ -241,6 +294,34 @@ mod tests {
         let cube = Cube::new(&Affine3A::from_translation(2.0 * Vec3::Z), false).expect("a cube");
         let ours = solid_angle(&Emitter::Cube { area: cube.area(), cube }, Vec3::ZERO, 600_000);
         assert!((ours - right).abs() <= 0.03, "{ours} {right}");
+    }
+
+    /// To the bit, and `None` from inside alike.
+    #[test]
+    fn spheres_side_by_side_are_sampled_as_each_is_alone() {
+        let mut random = Random::new(6, [0, 0], 0);
+        let mut inside = 0;
+        for _ in 0..1000 {
+            let (mut from, mut centers, mut radii) = (Vectors::ZERO, Vectors::ZERO, [0.0; LANES]);
+            let [u, v] = [random.lane(), random.lane()];
+            for (lane, radius) in radii.iter_mut().enumerate() {
+                from.set(lane, crate::frame::uniform_direction(random.uniforms()) * 2.0);
+                centers.set(lane, crate::frame::uniform_direction(random.uniforms()));
+                *radius = 0.1 + random.uniform() * 1.5;
+            }
+            let directions = Directions::to_spheres(&from, (&centers, &radii), [&u, &v]);
+            for lane in 0..LANES {
+                let emitter = Emitter::Sphere(Sphere::new(centers.get(lane), radii[lane], false).expect("a sphere"));
+                let bits = |towards: Option<Towards>| {
+                    let Towards { direction: Vec3 { x, y, z }, distance, inverse_pdf } = towards?;
+                    Some([x, y, z, distance, inverse_pdf].map(f32::to_bits))
+                };
+                let alone = emitter.sample(from.get(lane), [u[lane], v[lane]]);
+                inside += usize::from(alone.is_none());
+                assert_eq!(bits(directions.get(lane)), bits(alone));
+            }
+        }
+        assert!(inside > 500 && inside < 7500, "{inside}");
     }
 
     #[test]

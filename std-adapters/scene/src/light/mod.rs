@@ -5,6 +5,6 @@ mod choices;
 mod emitter;
 mod lamps;
 
-pub(crate) use choice::{Facing, Lights, Weights};
+pub(crate) use choice::{Chosen, Facing, Lights, Weights};
 pub use choice::{LightChoice, Mixture};
-pub(crate) use emitter::Emitter;
+pub(crate) use emitter::{Directions, Emitter};

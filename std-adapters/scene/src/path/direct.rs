@@ -2,14 +2,26 @@
 
 use crate::Scene;
 use crate::colour::Colour;
-use crate::geometry::{Beam, NONE, Nearest, Segments};
+use crate::geometry::{Beam, NONE, Nearest, Point, Segments};
 use crate::lanes::{LANES, Vectors, in_memory};
+use crate::light::{Chosen, Directions};
 use crate::path::Samples;
 use crate::path::kernel::Block;
 use crate::path::record::Record;
 use crate::path::vertex::Vertex;
 use crate::random::Random;
+use core::f32::consts::FRAC_1_PI;
+use glam::Vec3;
 use ratiocv_simd::Work;
+
+/// A place that scatters light, but for what is in lanes.
+#[derive(Clone, Copy)]
+struct Place<C> {
+    point: Point,
+    /// On the side of the ray.
+    normal: Vec3,
+    reflectance: C,
+}
 
 /// The paths of a block in a scene of diffuse surfaces, lit by lights that are sampled, without media, where
 /// paths end at the first scattering.
@@ -42,7 +54,7 @@ impl<C: Colour, const AUXILIARY: bool> Direct<'_, C, AUXILIARY> {
         let Self { scene, samples, .. } = self;
         let Samples { plain, pairs, weights, .. } = &mut **samples;
         let mut emission = [C::ZERO; LANES];
-        let mut vertices: [Option<Vertex<C>>; LANES] = [const { None }; LANES];
+        let mut places = [None; LANES];
         let (mut at, mut normals) = (Vectors::ZERO, Vectors::ZERO);
         for lane in 0..count {
             let ray = beam.ray(lane);
@@ -54,36 +66,56 @@ impl<C: Colour, const AUXILIARY: bool> Direct<'_, C, AUXILIARY> {
             if surface.light != NONE && point.normal.dot(ray.direction) < 0.0 {
                 emission[lane] = surface.emission;
             }
-            vertices[lane] = Vertex::on::<false>(point, surface, ray.direction);
-            if let Some(vertex) = &vertices[lane] {
-                at.set(lane, vertex.point.position);
+            if let Some(vertex) = Vertex::on::<false>(point, surface, ray.direction) {
+                at.set(lane, point.position);
                 normals.set(lane, vertex.shading);
+                places[lane] = Some(Place { point, normal: vertex.normal, reflectance: vertex.lobes.reflectance });
             }
         }
         in_memory(&mut (&mut at, &mut normals));
         let choices = scene.lights.choose_each::<AUXILIARY>(&at, &normals, &random.lane(), &mut weights.by_place);
         let [u, v] = [random.lane(), random.lane()];
+        let chosen: [Option<Chosen<C>>; LANES] =
+            core::array::from_fn(|lane| places[lane].and_then(|_| scene.lights.chosen::<AUXILIARY>(&choices, lane)));
+        let (mut centers, mut radii) = (Vectors::ZERO, [0.0; LANES]);
+        for (lane, chosen) in chosen.iter().enumerate() {
+            if let Some((center, radius)) =
+                chosen.as_ref().and_then(|chosen| scene.lights.lights[chosen.light].emitter.ball())
+            {
+                centers.set(lane, center);
+                radii[lane] = radius;
+            }
+        }
+        in_memory(&mut (&mut centers, &mut radii));
+        let to_balls = Directions::to_spheres(&at, (&centers, &radii), [&u, &v]);
         // f if nothing hides the light, and h.
         let mut light = [(C::ZERO, C::ONE); LANES];
         let mut shadows = Segments::NONE;
         for lane in 0..count {
-            let Some(vertex) = &vertices[lane] else { continue };
-            let Some(chosen) = scene.lights.chosen::<AUXILIARY>(&choices, lane) else { continue };
+            let (Some(place), Some(chosen)) = (&places[lane], &chosen[lane]) else { continue };
             light[lane].1 = chosen.h;
             let lamp = &scene.lights.lights[chosen.light];
-            let Some(towards) = lamp.emitter.sample(vertex.point.position, [u[lane], v[lane]]) else { continue };
-            let Some(scattered) = vertex.scattered::<false, false>(towards.direction) else { continue };
-            let f = scattered.over_density * scattered.density * lamp.radiance;
-            light[lane].0 = f.times(towards.inverse_pdf / chosen.probability);
+            let towards = if radii[lane] > 0.0 {
+                to_balls.get(lane)
+            } else {
+                lamp.emitter.sample(at.get(lane), [u[lane], v[lane]])
+            };
+            let Some(towards) = towards else { continue };
+            let cos = normals.get(lane).dot(towards.direction);
+            if !(cos > 0.0 && place.normal.dot(towards.direction) > 0.0) {
+                continue;
+            }
+            let f = place.reflectance * lamp.radiance;
+            light[lane].0 = f.times(cos * FRAC_1_PI * (towards.inverse_pdf / chosen.probability));
             let (end, to) = lamp.segment(towards.distance);
-            shadows.set(lane, &vertex.point.towards(towards.direction), end, to);
+            shadows.set(lane, &place.point.towards(towards.direction), end, to);
         }
         in_memory(&mut shadows);
         let hidden = scene.geometry.hidden(&shadows);
         for lane in 0..count {
             let mut record = Record::<C, AUXILIARY>::new(&scene.terms, pairs, first + lane);
             record.scattering(1, emission[lane], C::ONE);
-            if vertices[lane].is_some() {
+            if places[lane].is_some() {
                 let (f, h) = light[lane];
                 record.light(2, if hidden[lane] { C::ZERO } else { f }, h);
             }

@@ -15,9 +15,9 @@ pub(super) struct Vertex<C> {
     /// Where the ray came from.
     wi: Vec3,
     law: Law,
-    lobes: Lobes<C>,
+    pub(super) lobes: Lobes<C>,
     /// On the side of the ray.
-    normal: Vec3,
+    pub(super) normal: Vec3,
     /// The one that scatters.
     pub(super) shading: Vec3,
 }
