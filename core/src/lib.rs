@@ -27,7 +27,7 @@
 //! To first order every estimator here is a difference control variate ȳ + c(H − x̄); they differ in
 //! the coefficient c that they imply, 0 for plain Monte Carlo, F/H for the ratio, Cov(x, y)/Var(x) for
 //! regressions. [`which_estimator`] says which one to take, and what each costs; [`embedding`] how to put it
-//! into a renderer.
+//! into a renderer; [`promises`] what holds whatever the draws are, and which test holds it.
 //!
 //! # Features
 //! - `conformance`: the laws of the traits as public functions, to be run on implementors.
@@ -67,6 +67,9 @@ pub mod weights;
 #[doc = include_str!("../examples/renderer/render.rs")]
 #[doc = "```"]
 pub mod embedding {}
+
+#[doc = include_str!("promises.md")]
+pub mod promises {}
 
 #[doc = include_str!("which_estimator.md")]
 pub mod which_estimator {}
