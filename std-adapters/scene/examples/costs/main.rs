@@ -1,0 +1,108 @@
+//! What scenes cost, for callgrind to count; `costs/run` says how. Prints a line per count, in their order: scene,
+//! variant, samples.
+//!
+//! Variants: `everything`, the kernel that leaves nothing out, on three channels with auxiliaries; `needed`, the
+//! kernel that is chosen, with auxiliaries where there are any; `plain`, the one without; `by-hand`, a loop that
+//! knows its scene.
+
+mod by_hand;
+mod furnace;
+mod three_lights;
+
+use core::hint::black_box;
+use furnace::Furnace;
+use glam::{DVec3, Vec3};
+use ratiocv_core::Spectrum;
+use ratiocv_scene::{BLOCK, BuiltIn, Colour, Description, Needs, Options, Samples, Scene};
+use ratiocv_simd::at_best_level;
+use three_lights::ThreeLights;
+
+type Rgb = Spectrum<f32, 3>;
+
+/// Every 61st pixel.
+fn pixels() -> impl Iterator<Item = [u32; 2]> {
+    (0..128 * 128).step_by(61).map(|pixel| [pixel % 128, pixel / 128])
+}
+
+/// A block of samples of each.
+#[inline(never)]
+fn counted(trace: &mut dyn FnMut([u32; 2])) -> usize {
+    let mut samples = 0;
+    for pixel in pixels() {
+        trace(pixel);
+        samples += BLOCK;
+    }
+    samples
+}
+
+fn count<C: Colour>(scene: &Scene<C>) -> usize {
+    let mut samples = Samples::new(scene);
+    counted(&mut |pixel| {
+        scene.trace(pixel, 0, BLOCK, 1, &mut samples);
+        black_box(&mut samples);
+    })
+}
+
+fn of<C: Colour>(description: &Description, auxiliary: bool) -> Scene<C> {
+    let options = Options { auxiliary, ..Options::default() };
+    Scene::new(description, &options).expect("a scene that comes with the crate")
+}
+
+/// Mean and squared standard error per channel of what a loop by hand yields.
+fn mean(trace: impl Fn([u32; 2], &mut [Vec3; BLOCK])) -> [Vec3; 2] {
+    // Not `counted`.
+    let (mut sum, mut squares, mut light) = (DVec3::ZERO, DVec3::ZERO, [Vec3::ZERO; BLOCK]);
+    for pixel in pixels() {
+        trace(pixel, &mut light);
+        for light in light.map(|light| light.as_dvec3()) {
+            sum += light;
+            squares += light * light;
+        }
+    }
+    let n = (pixels().count() * BLOCK) as f64;
+    [(sum / n).as_vec3(), ((squares / n - sum / n * (sum / n)) / n).as_vec3()]
+}
+
+/// A loop by hand, once it is seen to have the scene's own mean: N = 17 216, 6 standard errors of the difference,
+/// and rounding.
+fn by_hand(scene: &Scene<Rgb>, trace: impl Fn([u32; 2], &mut [Vec3; BLOCK])) -> usize {
+    let [right, right_square] = mean(|pixel, light| {
+        let mut samples = Samples::new(scene);
+        scene.trace(pixel, 0, BLOCK, 1, &mut samples);
+        *light = samples.plain.map(|plain| Vec3::from_array(plain.0));
+    });
+    let [ours, square] = mean(&trace);
+    let allowed = 6.0 * (square + right_square).map(f32::sqrt) + 1e-4 * right;
+    assert!((ours - right).abs().cmple(allowed).all(), "by hand {ours}, but {right}");
+    let mut light = [Vec3::ZERO; BLOCK];
+    counted(&mut |pixel| {
+        trace(pixel, &mut light);
+        black_box(&mut light);
+    })
+}
+
+fn main() {
+    let named: Vec<String> = std::env::args().skip(1).collect();
+    for BuiltIn { name, .. } in BuiltIn::ALL {
+        if !named.is_empty() && !named.iter().any(|n| n == name) {
+            continue;
+        }
+        let description = Description::built_in(name).expect("a scene that comes with the crate");
+        let needs = Needs::of(&description, &Options::default());
+        let say = |variant: &str, samples: usize| println!("{name} {variant} {samples}");
+        say("everything", count(&of::<Rgb>(&description, true).with_everything()));
+        if needs.channels == 1 {
+            say("needed", count(&of::<f32>(&description, true)));
+            say("plain", count(&of::<f32>(&description, false)));
+        } else {
+            say("needed", count(&of::<Rgb>(&description, true)));
+            say("plain", count(&of::<Rgb>(&description, false)));
+        }
+        let plain = || of::<Rgb>(&description, false);
+        match *name {
+            "S1" => say("by-hand", by_hand(&plain(), |pixel, light| at_best_level(ThreeLights { pixel, light }))),
+            "S4b" => say("by-hand", by_hand(&plain(), |pixel, light| at_best_level(Furnace { pixel, light }))),
+            _ => {}
+        }
+    }
+}
