@@ -47,20 +47,21 @@ fn joined(earlier: Mean, later: Mean) -> Mean {
     Mean { relative: large.relative + apart * (small.count as f64 / count as f64), count, ..large }
 }
 
-/// Blocks of one for the first four numbers, then a block of one run, blocks of up to `runs` runs, each in `parts`
-/// sums, then the rest in one.
-fn mean(numbers: &[f32], runs: usize, parts: usize) -> f64 {
-    let (first, rest) = numbers.split_at(4);
+/// Blocks of one for the first `singles` numbers, then a block of one run, blocks of up to `runs` runs, each in
+/// `parts` sums, then the rest in one.
+fn mean(numbers: &[f32], singles: usize, runs: usize, parts: usize) -> f64 {
+    let (first, rest) = numbers.split_at(singles);
     let (whole, rest) = rest.split_at(rest.len() / BLOCK * BLOCK);
     let (one_run, whole) = whole.split_at(BLOCK);
     let whole = core::iter::once(one_run).chain(whole.chunks(runs * BLOCK)).map(|numbers| block(numbers, parts));
     let blocks = first.iter().map(|x| block(&[*x], 1)).chain(whole);
     let blocks = blocks.chain((!rest.is_empty()).then(|| block(rest, 1)));
-    let mean = blocks.reduce(joined).expect("at least four numbers");
+    let mean = blocks.reduce(joined).expect("some numbers");
     mean.anchor + mean.relative
 }
 
-/// Means of every channel, added at once (16 runs to a block, in `parts` sums) and one by one (one run, one sum).
+/// Means of every channel, added at once (a run to begin with, then 16 to a block, in `parts` sums) and one by one
+/// (four draws alone, then one run, one sum).
 fn check<V: Lanes<Scalar = f32>>(parts: usize) {
     let draws = draws::<V, 0>(0, 4 + 19 * BLOCK + 37);
     let (mut at_once, mut one_by_one) = (Sums::<V, 0>::default(), Sums::<V, 0>::default());
@@ -71,9 +72,9 @@ fn check<V: Lanes<Scalar = f32>>(parts: usize) {
     // Infinities and NaNs are not asked for here.
     for channel in (0..V::LANES).filter(|channel| ![8, 9].contains(&(channel % 11))) {
         let numbers: Vec<f32> = draws.iter().map(|draw| draw.f.get(channel)).collect();
-        for (moments, runs, parts) in [(&at_once, 16, parts), (&one_by_one, 1, 1)] {
+        for (moments, singles, runs, parts) in [(&at_once, 0, 16, parts), (&one_by_one, 4, 1, 1)] {
             let ours = moments.closed().channel(channel).means(moments.count()).f;
-            let right = mean(&numbers, runs, parts);
+            let right = mean(&numbers, singles, runs, parts);
             assert_eq!(ours.to_bits(), right.to_bits(), "channel {channel} of {}: {ours}, {right}", V::LANES);
         }
     }
