@@ -159,6 +159,7 @@ impl<C: Colour> Scene<C> {
     /// Each (seed, pixel, block) has a random stream of its own: what a sample is depends on these and its
     /// number alone. `samples` must have been made for this scene.
     pub fn trace(&self, pixel: [u32; 2], block: u64, count: usize, seed: u64, samples: &mut Samples<C>) {
-        (self.kernel)(self, Block { pixel, block, count: count.min(BLOCK), seed }, samples);
+        samples.count = count.min(BLOCK);
+        (self.kernel)(self, Block { pixel, block, count: samples.count, seed }, samples);
     }
 }

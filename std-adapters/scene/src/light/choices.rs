@@ -77,6 +77,7 @@ impl<C: Colour> Lights<C> {
         // The last light that begins before the place, in [0, total).
         let place = each(u, &total, |u, total| u * total);
         let (mut begin, mut weight_of_chosen, mut seen_of_chosen) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let mut chosen = [0; LANES];
         for (light, ((lamps, number), seen)) in lamps().zip(seen.iter()).enumerate() {
             let mut weights = [lamps.importance[number]; LANES];
             if self.mixture == Mixture::Uniform {
@@ -88,14 +89,15 @@ impl<C: Colour> Lights<C> {
             weights = each(&weights, seen, |weight, seen| weight * seen);
             let begun = mask(&place, &begin, |place, begin| place >= begin);
             let here = mask(&weights, &begun, |weight, begun| (weight > 0.0) & (begun != 0));
-            for (chosen, here) in choices.light.iter_mut().zip(here) {
+            for (chosen, here) in chosen.iter_mut().zip(here) {
                 *chosen = (light as u32 & here) | (*chosen & !here);
             }
             seen_of_chosen = blend(&here, seen, &seen_of_chosen);
             weight_of_chosen = blend(&here, &weights, &weight_of_chosen);
             begin = each(&begin, &weights, |begin, weight| begin + weight);
-            in_memory(&mut (&mut choices, &mut seen_of_chosen, &mut weight_of_chosen, &mut begin));
+            in_memory(&mut (&mut chosen, &mut seen_of_chosen, &mut weight_of_chosen, &mut begin));
         }
+        choices.light = chosen;
         choices.probability = each(&weight_of_chosen, &total, |weight, total| weight / total);
         if AUXILIARY {
             let scale = each(&seen_of_chosen, &choices.probability, |seen, probability| seen / probability);

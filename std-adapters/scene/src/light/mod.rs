@@ -4,7 +4,9 @@ mod choice;
 mod choices;
 mod emitter;
 mod lamps;
+mod towards;
 
 pub(crate) use choice::{Chosen, Facing, Lights, Weights};
 pub use choice::{LightChoice, Mixture};
-pub(crate) use emitter::{Directions, Emitter};
+pub(crate) use emitter::Emitter;
+pub(crate) use towards::Directions;

@@ -6,12 +6,13 @@ use crate::geometry::{Beam, NONE, Nearest, Point, Segments};
 use crate::lanes::{LANES, Vectors, in_memory};
 use crate::light::{Chosen, Directions};
 use crate::path::Samples;
-use crate::path::kernel::Block;
-use crate::path::record::Record;
+use crate::path::kernel::{Block, Trace, each_beam};
 use crate::path::vertex::Vertex;
 use crate::random::Random;
 use core::f32::consts::FRAC_1_PI;
+use core::ops::Range;
 use glam::Vec3;
+use ratiocv_core::Draw;
 use ratiocv_simd::Work;
 
 /// A place that scatters light, but for what is in lanes.
@@ -34,25 +35,17 @@ pub(super) struct Direct<'a, C, const AUXILIARY: bool> {
 impl<C: Colour, const AUXILIARY: bool> Work for Direct<'_, C, AUXILIARY> {
     type Output = ();
     #[inline(always)]
-    fn run(mut self) {
-        let Block { pixel, block, count, seed } = self.block;
-        let mut random = Random::new(seed, pixel, block);
-        self.samples.count = count;
-        let scene = self.scene;
-        for first in (0..count).step_by(Beam::RAYS) {
-            let beam = scene.camera.rays(pixel, &mut random);
-            let seen = scene.geometry.seen_by_camera(&beam);
-            self.eight(first, LANES.min(count - first), (&beam, &seen), &mut random);
-        }
+    fn run(self) {
+        each_beam(self.scene, self.block, self);
     }
 }
 
-impl<C: Colour, const AUXILIARY: bool> Direct<'_, C, AUXILIARY> {
-    /// Samples `first..first + count`.
+impl<C: Colour, const AUXILIARY: bool> Trace for Direct<'_, C, AUXILIARY> {
     #[inline(always)]
-    fn eight(&mut self, first: usize, count: usize, (beam, seen): (&Beam, &Nearest), random: &mut Random) {
+    fn trace(&mut self, numbers: Range<usize>, (beam, seen): (&Beam, &Nearest), random: &mut Random) {
         let Self { scene, samples, .. } = self;
         let Samples { plain, pairs, weights, .. } = &mut **samples;
+        let count = numbers.len();
         let mut emission = [C::ZERO; LANES];
         let mut places = [None; LANES];
         let (mut at, mut normals) = (Vectors::ZERO, Vectors::ZERO);
@@ -112,14 +105,18 @@ impl<C: Colour, const AUXILIARY: bool> Direct<'_, C, AUXILIARY> {
         }
         in_memory(&mut shadows);
         let hidden = scene.geometry.hidden(&shadows);
-        for lane in 0..count {
-            let mut record = Record::<C, AUXILIARY>::new(&scene.terms, pairs, first + lane);
-            record.scattering(1, emission[lane], C::ONE);
-            if places[lane].is_some() {
-                let (f, h) = light[lane];
-                record.light(2, if hidden[lane] { C::ZERO } else { f }, h);
+        for (light, _) in light.iter_mut().zip(hidden).filter(|(_, hidden)| *hidden) {
+            light.0 = C::ZERO;
+        }
+        // What the camera sees is plain; the only pair there can be is of light that was sampled.
+        let plain = plain[numbers.clone()].iter_mut().zip(emission);
+        match pairs.first_mut() {
+            Some(pairs) if AUXILIARY => {
+                for ((plain, emission), (pair, (f, h))) in plain.zip(pairs[numbers].iter_mut().zip(light)) {
+                    (*plain, *pair) = (emission, Draw::new(f, h));
+                }
             }
-            plain[first + lane] = record.end(C::ONE);
+            _ => plain.zip(light).for_each(|((plain, emission), (f, _))| *plain = emission + f),
         }
     }
 }

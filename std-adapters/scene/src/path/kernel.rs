@@ -14,6 +14,7 @@ use crate::path::record::Record;
 use crate::path::vertex::Vertex;
 use crate::planted::planted;
 use crate::random::Random;
+use core::ops::Range;
 use ratiocv_simd::Work;
 
 /// What to trace.
@@ -23,6 +24,27 @@ pub struct Block {
     pub(crate) block: u64,
     pub(crate) count: usize,
     pub(crate) seed: u64,
+}
+
+/// What traces samples from rays of the camera on. A trait, not a closure, because it must be inlined.
+pub(super) trait Trace {
+    /// Traces the samples `numbers`, which start with the first of `rays`.
+    fn trace(&mut self, numbers: Range<usize>, rays: (&Beam, &Nearest), random: &mut Random);
+}
+
+/// Makes the rays of the camera and what they meet side by side, for `paths` to go on from.
+#[inline(always)]
+pub(super) fn each_beam<C: Colour>(
+    scene: &Scene<C>,
+    Block { pixel, block, count, seed }: Block,
+    mut paths: impl Trace,
+) {
+    let mut random = Random::new(seed, pixel, block);
+    for first in (0..count).step_by(Beam::RAYS) {
+        let beam = scene.camera.rays(pixel, &mut random);
+        let seen = scene.geometry.seen_by_camera(&beam);
+        paths.trace(first..count.min(first + Beam::RAYS), (&beam, &seen), &mut random);
+    }
 }
 
 /// The paths of a block, in a kernel that has what the scene needs.
@@ -51,19 +73,24 @@ impl<
 {
     type Output = ();
     #[inline(always)]
-    fn run(mut self) {
-        let Block { pixel, block, count, seed } = self.block;
-        let mut random = Random::new(seed, pixel, block);
-        self.samples.count = count;
-        let scene = self.scene;
-        // Rays of the camera are made and traced side by side.
-        for first in (0..count).step_by(Beam::RAYS) {
-            let beam = scene.camera.rays(pixel, &mut random);
-            let seen = scene.geometry.seen_by_camera(&beam);
-            for lane in 0..Beam::RAYS.min(count - first) {
-                let sample = first + lane;
-                self.samples.plain[sample] = self.path(sample, (&beam, &seen, lane), &mut random);
-            }
+    fn run(self) {
+        each_beam(self.scene, self.block, self);
+    }
+}
+
+impl<
+    C: Colour,
+    const AUXILIARY: bool,
+    const MEDIA: bool,
+    const CONDUCTORS: bool,
+    const LIGHTS: bool,
+    const SCATTERING: bool,
+> Trace for Paths<'_, C, AUXILIARY, MEDIA, CONDUCTORS, LIGHTS, SCATTERING>
+{
+    #[inline(always)]
+    fn trace(&mut self, numbers: Range<usize>, (beam, seen): (&Beam, &Nearest), random: &mut Random) {
+        for (lane, sample) in numbers.enumerate() {
+            self.samples.plain[sample] = self.path(sample, (beam, seen, lane), random);
         }
     }
 }

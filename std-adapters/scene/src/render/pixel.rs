@@ -6,6 +6,7 @@ use crate::planted::planted;
 use crate::render::method::{OnPixel, Term};
 use ratiocv_core::moments::{Accumulate, Mean, Merge, Moments, Save, Variance};
 use ratiocv_core::{Draw, Estimate, Estimator, Flags, Integrals, Plain};
+use ratiocv_simd::{Work, add_batch, at_best_level};
 
 /// Parts of a pixel's samples that the jackknife leaves out in turn.
 const GROUPS: usize = 8;
@@ -43,9 +44,9 @@ impl<C: Colour, M: Term<C>> Part<C, M> {
     }
 
     fn add(&mut self, plain: &[C], pairs: impl Iterator<Item = impl AsRef<[Draw<C>]>>) {
-        add_plain(&mut self.plain, plain);
+        at_best_level(AddPlain(&mut self.plain, plain));
         for (term, pairs) in self.terms.iter_mut().zip(pairs) {
-            term.add_batch(pairs.as_ref());
+            add_batch(term, pairs.as_ref());
         }
     }
 
@@ -64,9 +65,16 @@ impl<C: Colour, M: Term<C>> Part<C, M> {
     }
 }
 
-fn add_plain<C: Colour>(moments: &mut impl Accumulate<Draw<C, 0>>, plain: &[C]) {
-    let mut rest = plain.iter();
-    moments.add_from(plain.len() as u64, || Draw { f: rest.next().copied().unwrap_or(C::ZERO), h: [] });
+/// Light that is added to its moments.
+struct AddPlain<'a, C, M>(&'a mut M, &'a [C]);
+
+impl<C: Colour, M: Accumulate<Draw<C, 0>>> Work for AddPlain<'_, C, M> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let mut rest = self.1.iter();
+        self.0.add_from(self.1.len() as u64, || Draw { f: rest.next().copied().unwrap_or(C::ZERO), h: [] });
+    }
 }
 
 impl<C: Colour, M: Term<C>> Pixel<C, M> {
@@ -90,7 +98,7 @@ impl<C: Colour, M: Term<C>> Pixel<C, M> {
         let count = samples.count;
         self.all.add(&samples.plain[..count], samples.pairs.iter().map(|pairs| &pairs[..count]));
         if let Some(spread) = &mut self.spread {
-            add_plain(spread, &samples.plain[..count]);
+            at_best_level(AddPlain(spread, &samples.plain[..count]));
         }
         // Neighbours go to different groups, so that a few samples reach all of them.
         let (mut plain, mut pairs) = (Vec::new(), Vec::new());
