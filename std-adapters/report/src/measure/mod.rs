@@ -3,6 +3,8 @@
 mod clock;
 mod compare;
 mod coverage;
+#[cfg(test)]
+mod every_estimator;
 mod options;
 mod plan;
 mod progress;

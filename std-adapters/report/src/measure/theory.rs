@@ -7,7 +7,7 @@ use ratiocv_core::predict::{Order, Population, Prediction};
 
 /// Predictions from populations that were integrated numerically carry rounding of about this, relative to
 /// the variance that cancels in them.
-const ROUNDING: f64 = 1e-11;
+pub(super) const ROUNDING: f64 = 1e-11;
 
 /// Bias over F and MSE over F² of `method` in a channel of the population.
 fn relative(method: Method, weight: f64, population: &Population, draws: u64, order: Order) -> Prediction {
