@@ -16,12 +16,24 @@ use ratiocv_core::{
 const ALONE: usize = 70;
 const BATCH: usize = 203;
 
-/// The moments of the same draws in each of the ways to add them; `seen` looks at every stage.
-fn fed<D: Copy, M: Accumulate<D> + Merge + Copy>(empty: M, draw: impl Fn(usize) -> D, seen: &mut dyn FnMut(&M)) -> M {
+/// One draw, and many. Out of line, as is [`fed`]: compiled once for each accumulator, not wherever it is called.
+#[inline(never)]
+fn add<D, M: Accumulate<D>>(moments: &mut M, draw: D) {
+    moments.add(draw);
+}
+
+#[inline(never)]
+fn add_batch<D, M: Accumulate<D>>(moments: &mut M, draws: &[D]) {
+    moments.add_batch(draws);
+}
+
+/// The moments of the same draws by themselves, in batches and merged; `seen` looks at every stage.
+#[inline(never)]
+fn fed<D: Copy, M: Accumulate<D> + Merge + Copy>(empty: M, draw: &dyn Fn(usize) -> D, seen: &mut dyn FnMut(&M)) -> M {
     let mut moments = empty;
     seen(&moments);
     for i in 0..ALONE {
-        moments.add(draw(i));
+        add(&mut moments, draw(i));
         if i < 3 || i == 64 {
             seen(&moments);
         }
@@ -29,15 +41,11 @@ fn fed<D: Copy, M: Accumulate<D> + Merge + Copy>(empty: M, draw: impl Fn(usize) 
     seen(&moments);
     let batch: [D; BATCH] = core::array::from_fn(|i| draw(ALONE + i));
     let mut later = empty;
-    later.add_batch(&batch);
+    add_batch(&mut later, &batch);
     seen(&later);
     moments.merge(&later);
     seen(&moments);
-    let mut i = ALONE + BATCH;
-    moments.add_from(130, || {
-        i += 1;
-        draw(i)
-    });
+    add_batch(&mut moments, &core::array::from_fn::<D, BATCH, _>(|i| draw(ALONE + BATCH + i)));
     seen(&moments);
     moments
 }
@@ -48,7 +56,7 @@ fn hashed<V: Lanes, D: Copy, M, E, const K: usize>(
     empty: M,
     estimator: &E,
     integrals: &Integrals<V, K>,
-    draw: impl Fn(usize, usize) -> D,
+    draw: &dyn Fn(usize, usize) -> D,
 ) -> u64
 where
     M: Accumulate<D> + Merge + Moments<Lanes = V> + Save + Copy,
@@ -56,9 +64,8 @@ where
 {
     let mut hash = Hash::EMPTY;
     for first in (0..KINDS).step_by(V::LANES) {
-        let draw = |i| draw(first, i);
         let mut moments =
-            fed(empty, draw, &mut |moments| hash.estimate(&estimator.estimate_anyway(moments, integrals)));
+            fed(empty, &|i| draw(first, i), &mut |moments| hash.estimate(&estimator.estimate_anyway(moments, integrals)));
         moments.words(&mut |word| hash.word(*word));
     }
     hash.0
@@ -69,7 +76,7 @@ where
 fn kept<V: Lanes, M: Accumulate<Draw<V>> + Merge + Save + Copy>(empty: M) -> u64 {
     let mut hash = Hash::EMPTY;
     for first in (0..KINDS).step_by(V::LANES) {
-        fed(empty, |i| draw(first, i), &mut |_| ()).words(&mut |word| hash.word(*word));
+        fed(empty, &|i| draw(first, i), &mut |_| ()).words(&mut |word| hash.word(*word));
     }
     hash.0
 }
@@ -80,7 +87,7 @@ pub(crate) fn all<V: Lanes>(lanes: &str, each: &mut dyn FnMut(&str, &str, u64)) 
     let two = Integrals::<V, 2>::new([V::Wide::ONE, V::Wide::from_fn(|_| -0.5)]);
     macro_rules! show {
         ($($name:literal: $estimator:expr, $moments:expr, $integrals:expr;)*) => {
-            $(each(lanes, $name, hashed(closed($moments), &$estimator, &$integrals, draw));)*
+            $(each(lanes, $name, hashed(closed($moments), &$estimator, &$integrals, &draw));)*
         };
     }
     /// Only to say what type it is.
@@ -120,7 +127,7 @@ pub(crate) fn all<V: Lanes>(lanes: &str, each: &mut dyn FnMut(&str, &str, u64)) 
     macro_rules! show_defensive {
         ($($name:literal: $estimator:expr;)*) => {$(
             if let Ok(estimator) = $estimator.defensive(0.01) {
-                each(lanes, $name, hashed(estimator.error_bar(&one), &estimator, &one, draw));
+                each(lanes, $name, hashed(estimator.error_bar(&one), &estimator, &one, &draw));
             }
         )*};
     }
@@ -135,7 +142,7 @@ pub(crate) fn all<V: Lanes>(lanes: &str, each: &mut dyn FnMut(&str, &str, u64)) 
     }
     let pairs = |first, i: usize| Pairs([draw(first, 2 * i), draw(first, 2 * i + 1)]);
     let groups = GroupedPairs::<V, 2, 8>::default();
-    each(lanes, "deterministic_mixture", hashed(groups, &DeterministicMixture, &two, pairs));
+    each(lanes, "deterministic_mixture", hashed(groups, &DeterministicMixture, &two, &pairs));
     each(lanes, "third", kept(Third::<V>::default()));
     each(lanes, "extremes", kept(Extremes::<V>::default()));
     each(lanes, "groups", kept(Groups::<V, 3>::default()));
@@ -151,7 +158,7 @@ fn paths<V: Lanes>() -> u64 {
             (0..5).for_each(|d| path.extend(draw(first, 5 * i + d), &Integrals::ONE));
             path
         };
-        fed(ScaledSums::<V>::default(), path, &mut |sums| hash.estimate(&sums.ratio_of_means()));
+        fed(ScaledSums::<V>::default(), &path, &mut |sums| hash.estimate(&sums.ratio_of_means()));
     }
     hash.0
 }

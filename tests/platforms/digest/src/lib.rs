@@ -28,11 +28,12 @@ mod scene;
 
 pub use output::hex;
 
-use ratiocv_core::Spectrum;
+use ratiocv_core::{Spectrum, fp_environment};
 use ratiocv_simd::F32x4;
 
 /// Shows all lines: what, which, and 64 bits, the same on every platform.
 pub fn all(each: &mut dyn FnMut(&str, &str, u64)) {
+    each("environment", "sound", u64::from(fp_environment().is_sound()));
     picture::all(each);
     estimators::all::<Spectrum<f32, 16>>("f32x16", each);
     estimators::all::<f64>("f64", each);

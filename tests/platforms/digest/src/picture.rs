@@ -14,7 +14,11 @@ const PIXELS: usize = WIDTH * 16;
 pub(crate) fn all(each: &mut dyn FnMut(&str, &str, u64)) {
     each("picture", "balls", picture().unwrap_or(0));
     let mut moments = Comoments::<Spectrum<f32, 32>>::default();
-    (0..300).for_each(|i| moments.add(draw(0, i)));
+    let mut i = 0;
+    moments.add_from(300, || {
+        i += 1;
+        draw(0, i)
+    });
     let estimate = RatioOfMeans.estimate_anyway(&moments, &Integrals::ONE);
     for value in estimate.value.0 {
         each("ratio", "channel", if value.is_nan() { u64::MAX } else { value.to_bits() });
