@@ -123,6 +123,7 @@ impl<S: HasGroups<K>, const K: usize> HasGroups for Combined<'_, S, K> {
     fn groups(&self) -> usize {
         self.moments.groups()
     }
+    #[inline(always)]
     fn group(&self, count: u64, group: usize) -> Group {
         let Group { count, f, h } = self.moments.group(count, group);
         Group { count, f, h: [self.mean(&h)] }
