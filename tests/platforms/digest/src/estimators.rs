@@ -64,8 +64,9 @@ where
 {
     let mut hash = Hash::EMPTY;
     for first in (0..KINDS).step_by(V::LANES) {
-        let mut moments =
-            fed(empty, &|i| draw(first, i), &mut |moments| hash.estimate(&estimator.estimate_anyway(moments, integrals)));
+        let mut moments = fed(empty, &|i| draw(first, i), &mut |moments| {
+            hash.estimate(&estimator.estimate_anyway(moments, integrals))
+        });
         moments.words(&mut |word| hash.word(*word));
     }
     hash.0
