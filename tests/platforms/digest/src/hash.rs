@@ -1,7 +1,7 @@
 //! A hash of results.
 
 use num_traits::float::FloatCore;
-use ratiocv_core::{Estimate, Flags, Lanes};
+use ratiocv_core::{ChannelEstimate, Flags};
 
 /// FNV-1a (Fowler, Noll, Vo 1991), 64 bits at a time.
 pub(crate) struct Hash(pub(crate) u64);
@@ -17,14 +17,10 @@ impl Hash {
         self.0 ^= self.0 >> 32;
     }
 
-    pub(crate) fn estimate<V: Lanes>(&mut self, estimate: &Estimate<V>) {
-        for channel in 0..V::LANES {
-            let channel = estimate.channel(channel);
-            self.word(channel.value.to_bits());
-            self.word(channel.std_error.to_bits());
-            let flags =
-                Flags::ALL.iter().fold(0, |bits, (flag, _)| 2 * bits + u64::from(channel.flags.contains(*flag)));
-            self.word(flags);
-        }
+    pub(crate) fn estimate(&mut self, estimate: &ChannelEstimate) {
+        self.word(estimate.value.to_bits());
+        self.word(estimate.std_error.to_bits());
+        let flags = Flags::ALL.iter().fold(0, |bits, (flag, _)| 2 * bits + u64::from(estimate.flags.contains(*flag)));
+        self.word(flags);
     }
 }

@@ -1,4 +1,5 @@
-//! Prints the lines of `ratiocv_platforms`; with the argument `packs`, those that packs make.
+//! Prints the lines of `ratiocv_platforms`; with the argument `packs`, those that packs make, with `backwards`,
+//! those of merges the wrong way round.
 
 use ratiocv_platforms::{all, packs};
 
@@ -6,6 +7,7 @@ fn main() {
     let print = &mut |what: &str, name: &str, bits: u64| println!("{what} {name} {bits:016x}");
     match std::env::args().nth(1).as_deref() {
         Some("packs") => packs(print),
-        _ => all(print),
+        Some("backwards") => all(true, print),
+        _ => all(false, print),
     }
 }

@@ -24,7 +24,7 @@ fn line(what: &str, name: &str, bits: u64) {
 /// Prints the lines of arrays.
 #[unsafe(no_mangle)]
 extern "C" fn arrays() {
-    all(&mut line);
+    all(false, &mut line);
 }
 
 /// Prints the lines of packs.

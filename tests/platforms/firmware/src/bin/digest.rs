@@ -14,7 +14,7 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
 /// Called by the reset handler.
 #[unsafe(no_mangle)]
 extern "C" fn program() -> ! {
-    all(&mut |what, name, bits| {
+    all(false, &mut |what, name, bits| {
         for text in [what.as_bytes(), b" ", name.as_bytes(), b" ", &hex(bits), b"\n"] {
             print(text);
         }
