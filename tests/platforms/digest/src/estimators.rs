@@ -80,13 +80,13 @@ pub(crate) fn all<V: Lanes>(lines: &mut Lines<'_>, lanes: &str) -> Result<(), Er
     let pairs = |first, i: usize| Pairs([draw(first, 2 * i), draw(first, 2 * i + 1)]);
     let groups = GroupedPairs::<V, 2, 8>::default();
     show(lines, [lanes, "pairs"], groups, &pairs, of_two, [("deterministic_mixture", &DeterministicMixture)]);
-    let paths = paths::<V>(lines.backwards);
+    let paths = paths::<V>(lines.regrouped);
     (lines.each)(lanes, "paths", paths);
     Ok(())
 }
 
 /// Paths of five steps.
-fn paths<V: Lanes>(backwards: bool) -> u64 {
+fn paths<V: Lanes>(regrouped: bool) -> u64 {
     let mut hash = Hash::EMPTY;
     for first in (0..KINDS).step_by(V::LANES) {
         let path = |i: usize| {
@@ -94,7 +94,7 @@ fn paths<V: Lanes>(backwards: bool) -> u64 {
             (0..5).for_each(|d| path.extend(draw(first, 5 * i + d), &Integrals::ONE));
             path
         };
-        fed(ScaledSums::<V>::default(), backwards, &path, &mut |sums| {
+        fed(ScaledSums::<V>::default(), regrouped, &path, &mut |sums| {
             let estimate = sums.ratio_of_means();
             (0..V::LANES).for_each(|channel| hash.estimate(&estimate.channel(channel)));
         });

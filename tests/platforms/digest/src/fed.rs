@@ -10,10 +10,11 @@ use ratiocv_core::{ChannelEstimate, Estimator, Lanes, Sample};
 const ALONE: usize = 70;
 const BATCH: usize = 203;
 
-/// Who takes the lines, and what the merges are to be: `backwards` is the plant that a comparison must see.
+/// Who takes the lines, and how three parts are merged: `regrouped`, a + (b + c), is a plant, which a comparison must
+/// see. Backwards would be none: a merge of two parts does not depend on their order.
 pub(crate) struct Lines<'a> {
     pub(crate) each: &'a mut dyn FnMut(&str, &str, u64),
-    pub(crate) backwards: bool,
+    pub(crate) regrouped: bool,
 }
 
 /// An estimator of the moments `S` of a channel. An object, so that it is compiled once, not for every
@@ -43,7 +44,7 @@ fn add_batch<D, M: Accumulate<D>>(moments: &mut M, draws: &[D]) {
 #[inline(never)]
 pub(crate) fn fed<D: Copy, M: Accumulate<D> + Merge + Copy>(
     empty: M,
-    backwards: bool,
+    regrouped: bool,
     draw: &dyn Fn(usize) -> D,
     seen: &mut dyn FnMut(&M),
 ) -> M {
@@ -57,15 +58,19 @@ pub(crate) fn fed<D: Copy, M: Accumulate<D> + Merge + Copy>(
     }
     seen(&moments);
     let batch = |first: usize| -> [D; BATCH] { core::array::from_fn(|i| draw(first + i)) };
-    let mut later = empty;
+    let (mut later, mut last) = (empty, empty);
     add_batch(&mut later, &batch(ALONE));
     seen(&later);
-    if backwards {
-        core::mem::swap(&mut moments, &mut later);
+    add_batch(&mut last, &batch(ALONE + BATCH));
+    if regrouped {
+        later.merge(&last);
+        moments.merge(&later);
+    } else {
+        moments.merge(&later);
+        moments.merge(&last);
     }
-    moments.merge(&later);
     seen(&moments);
-    add_batch(&mut moments, &batch(ALONE + BATCH));
+    add_batch(&mut moments, &batch(ALONE + 2 * BATCH));
     seen(&moments);
     moments
 }
@@ -96,7 +101,7 @@ pub(crate) fn show<D: Copy, M, const K: usize, const E: usize>(
                 }
             }
         };
-        let mut moments = fed(empty, lines.backwards, &|i| draw(first, i), &mut look);
+        let mut moments = fed(empty, lines.regrouped, &|i| draw(first, i), &mut look);
         moments.words(&mut |word| kept.word(*word));
     }
     (lines.each)(lanes, name, kept.0);

@@ -33,12 +33,12 @@ pub use output::hex;
 use fed::Lines;
 use ratiocv_core::{Spectrum, fp_environment};
 
-/// Shows all lines: what, which, and 64 bits, the same on every platform. `backwards` merges the wrong way round:
-/// what a comparison must notice.
-pub fn all(backwards: bool, each: &mut dyn FnMut(&str, &str, u64)) {
+/// Shows all lines: what, which, and 64 bits, the same on every platform. `regrouped` merges by another tree, which
+/// a comparison must notice.
+pub fn all(regrouped: bool, each: &mut dyn FnMut(&str, &str, u64)) {
     each("environment", "sound", u64::from(fp_environment().is_sound()));
     picture::all(each);
-    let lines = &mut Lines { each, backwards };
+    let lines = &mut Lines { each, regrouped };
     if estimators::all::<Spectrum<f32, 3>>(lines, "f32x3").is_err() {
         (lines.each)("no", "estimators", 0);
     }
@@ -53,7 +53,7 @@ pub fn all(backwards: bool, each: &mut dyn FnMut(&str, &str, u64)) {
 #[cfg(feature = "packs")]
 pub fn packs(each: &mut dyn FnMut(&str, &str, u64)) {
     use ratiocv_simd::{F32x4, F32x8, F32x16, F64x4};
-    let lines = &mut Lines { each, backwards: false };
+    let lines = &mut Lines { each, regrouped: false };
     kernels::all::<F32x16>(lines, "f32x16");
     kernels::comoments::<F32x4>(lines, "f32x4");
     kernels::comoments::<F32x8>(lines, "f32x8");

@@ -1,5 +1,5 @@
-//! Prints the lines of `ratiocv_platforms`; with the argument `packs`, those that packs make, with `backwards`,
-//! those of merges the wrong way round.
+//! Prints the lines of `ratiocv_platforms`; with the argument `packs`, those that packs make, with `regrouped`,
+//! those of another tree of merges.
 
 use ratiocv_platforms::{all, packs};
 
@@ -7,7 +7,7 @@ fn main() {
     let print = &mut |what: &str, name: &str, bits: u64| println!("{what} {name} {bits:016x}");
     match std::env::args().nth(1).as_deref() {
         Some("packs") => packs(print),
-        Some("backwards") => all(true, print),
+        Some("regrouped") => all(true, print),
         _ => all(false, print),
     }
 }
