@@ -52,7 +52,8 @@ mod integrals;
 mod lanes;
 pub mod moments;
 mod path_space;
-mod planted;
+#[doc(hidden)]
+pub mod planted;
 pub mod predict;
 mod problem;
 pub mod sampling;

@@ -58,7 +58,7 @@ pub(crate) fn solve<W: Lanes<Scalar = f64>, const K: usize>(
             for j in 0..K {
                 rest[i][j] = rest[i][j] - factor * row[j];
             }
-            x[i] = x[i] - factor * right;
+            x[i] = x[i] - planted!("solve_right_side": factor, factor * factor) * right;
             free[i] = free[i].except(is_chosen[i]);
             determined[i] = W::select(is_chosen[i], W::ONE, determined[i]);
         }

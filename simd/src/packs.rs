@@ -3,7 +3,7 @@
 use crate::mask::Mask;
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};
-use ratiocv_core::{Lanes, Single, Spectrum};
+use ratiocv_core::{Lanes, Single, Spectrum, planted};
 
 macro_rules! operators {
     ($pack:ident: $($trait:ident $method:ident)*) => {$(
@@ -102,7 +102,7 @@ macro_rules! packs {
             }
             #[inline(always)]
             fn lt(self, other: Self) -> Mask<Self> {
-                Mask(Self(self.0.simd_lt(other.0)))
+                Mask(Self(planted!("pack_below": self.0.simd_lt(other.0), self.0.simd_le(other.0))))
             }
             #[inline(always)]
             fn equal(self, other: Self) -> Mask<Self> {

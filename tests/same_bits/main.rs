@@ -4,7 +4,6 @@
 //! One source, [`operations::compare`] and [`moments::compare`], for every lane type. That the comparison
 //! can fail is shown by lanes that are wrong on purpose (`wrong`).
 
-mod alone;
 mod hostile;
 mod laws;
 mod moments;

@@ -1,6 +1,5 @@
 //! Every accumulator, however it is called.
 
-use crate::alone::Alone;
 use crate::hostile::{Bits, draws};
 use core::fmt::Debug;
 use ratiocv_core::moments::{
@@ -10,6 +9,7 @@ use ratiocv_core::moments::{
 };
 use ratiocv_core::{Draw, Integrals, Lanes, Spectrum};
 use ratiocv_simd::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
+use ratiocv_tests::alone::Alone;
 
 /// Draws of a test: more runs than make a block, and some draws more.
 const DRAWS: usize = 18 * BLOCK + 37;

@@ -1,5 +1,6 @@
 //! What the tests share: tolerance checks, golden files, exact enumeration.
 
+pub mod alone;
 pub mod enumerate;
 pub mod golden;
 pub mod population;

@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::lanes::{Lanes, PerLane, Scalar};
 use crate::planted::planted;
+use crate::scaled::Scaled;
 
 /// w_k = (n_k g_k)^β/Σ_j (n_j g_j)^β for n_k draws from each of `K` techniques with the pdfs g_k
 /// (Veach, Guibas 1995): β = 1 is the balance heuristic, β = 2 the usual power heuristic.
@@ -44,7 +45,7 @@ impl PowerHeuristic {
     ///
     /// They sum to 1, but for rounding. An infinite pdf, a delta, takes all; several share by count.
     /// Where no technique reaches the point all weights are 0, as is that of a technique without
-    /// draws. A negative or NaN count or pdf makes all weights of its channel NaN.
+    /// draws. A negative or NaN count or pdf, or an infinite count, makes all weights of its channel NaN.
     pub fn weights<V: Lanes, const K: usize>(&self, counts: &[f64; K], pdfs: &[V; K]) -> [V; K] {
         let pdfs = pdfs.map(V::widen);
         let channels = V::PerLane::<[f64; K]>::from_fn(|i| self.of_channel(counts, &pdfs.map(|pdf| pdf.get(i))));
@@ -54,7 +55,7 @@ impl PowerHeuristic {
     pub(super) fn of_channel<const K: usize>(&self, counts: &[f64; K], pdfs: &[f64; K]) -> [f64; K] {
         let mut largest = 0.0;
         for (n, g) in counts.iter().zip(pdfs) {
-            if !(*n >= 0.0 && *g >= 0.0) {
+            if !(*n >= 0.0 && n.is_finite() && *g >= 0.0) {
                 return [f64::NAN; K];
             }
             if *n > 0.0 && *g > largest {
@@ -64,13 +65,34 @@ impl PowerHeuristic {
         if largest == 0.0 {
             return [0.0; K];
         }
-        let terms: [f64; K] = core::array::from_fn(|k| {
-            let (n, g) = (counts[k], pdfs[k]);
-            let relative = if g == largest { 1.0 } else { g / largest }; // ∞/∞ among deltas
-            if n == 0.0 { 0.0 } else { self.power(planted!("heuristic_counts": n, 1.0) * relative) }
-        });
-        let sum = terms.iter().fold(0.0, |sum, term| sum + term);
+        let relative = pdfs.map(|g| if g == largest { 1.0 } else { g / largest }); // ∞/∞ among deltas
+        let of = |k: usize| planted!("heuristic_counts": counts[k], 1.0);
+        let mut terms: [f64; K] =
+            core::array::from_fn(|k| if counts[k] == 0.0 { 0.0 } else { self.power(of(k) * relative[k]) });
+        let mut sum = terms.iter().fold(0.0, |sum, term| sum + term);
+        let lost = |k: usize| counts[k] > 0.0 && pdfs[k] > 0.0 && relative[k] < f64::MIN_POSITIVE;
+        // Enormous or tiny counts, or powers of them.
+        if !(sum >= f64::MIN_POSITIVE && sum.is_finite()) || (largest.is_finite() && (0..K).any(lost)) {
+            terms = self.in_units_of_the_largest(counts, pdfs, largest);
+            sum = terms.iter().fold(0.0, |sum, term| sum + term);
+        }
         terms.map(|term| term / sum)
+    }
+
+    /// The terms (n_k g_k)^β in units of the largest, which no exponent takes out of the range.
+    #[cold]
+    fn in_units_of_the_largest<const K: usize>(&self, counts: &[f64; K], pdfs: &[f64; K], largest: f64) -> [f64; K] {
+        let product = |k: usize| match largest.is_finite() {
+            true => Scaled::new(counts[k]) * Scaled::new(pdfs[k]),
+            false if pdfs[k] == largest => Scaled::new(counts[k]),
+            false => Scaled::ZERO,
+        };
+        let above = |one: Scaled, other: Scaled| other.is_zero() || (one / other).value() > 1.0;
+        let unit = (0..K).map(product).fold(Scaled::ZERO, |unit, one| if above(one, unit) { one } else { unit });
+        core::array::from_fn(|k| {
+            let share = (product(k) / unit).value();
+            if share == 0.0 { 0.0 } else { self.power(share) }
+        })
     }
 
     fn power(&self, x: f64) -> f64 {

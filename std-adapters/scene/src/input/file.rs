@@ -4,6 +4,7 @@
 use super::Leniency;
 use super::element::Element;
 use super::error::{Error, Warning};
+use crate::planted::planted;
 use core::cell::RefCell;
 use roxmltree::{Document, Node, NodeId, ParsingOptions};
 use std::collections::{HashMap, HashSet};
@@ -195,7 +196,7 @@ impl<'a> File<'a> {
             result.push_str(before);
             let word = after.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(after.len());
             // The longest name that fits, as "1$a" may be followed by letters.
-            let fits = (1..=word).rev().filter(|end| after.is_char_boundary(*end)).find_map(|end| {
+            let fits = (1..=word).rev().filter(|end| planted!("scene_text": after.is_char_boundary(*end), true)).find_map(|end| {
                 let (value, defined) = self.defaults.get(&after[..end])?;
                 (*defined < node.id().get()).then_some((value, end))
             });

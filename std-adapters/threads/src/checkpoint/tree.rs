@@ -5,6 +5,7 @@ use crate::error::{Error, Fault};
 use crate::integrate::CHUNK;
 use crate::merge_tree::MergeTree;
 use ratiocv_core::moments::{Moments, Save};
+use ratiocv_core::planted;
 use std::path::PathBuf;
 
 /// Where a run is kept.
@@ -50,7 +51,7 @@ impl Checkpoint {
             });
             all?;
             let end = self.draws.min(start.saturating_add(CHUNK.saturating_mul(1 << bit)));
-            if moments.count() != end - start {
+            if planted!("checkpoint_counts": moments.count() != end - start, false) {
                 return Err(Fault::Damaged("the number of draws is not that of its chunks"));
             }
             subtrees.push(moments);

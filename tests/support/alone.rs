@@ -7,7 +7,10 @@ use ratiocv_core::{Lanes, Scalar, Single};
 /// One channel in plain scalar arithmetic that says it is `CHANNELS` alike, so that accumulators sum it in
 /// the order that they have for that many.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Alone<S, const CHANNELS: usize>(pub(crate) S);
+pub struct Alone<S, const CHANNELS: usize>(
+    /// The number.
+    pub S,
+);
 
 macro_rules! operators {
     ($($trait:ident $method:ident)*) => {$(

@@ -1,0 +1,60 @@
+//! Moments against exact ones.
+
+use crate::bytes::{Bytes, Reach, draws};
+use crate::truth::Truth;
+use ratiocv_core::moments::{Accumulate, Comoments, HasComoments, HasMeans, Moments};
+use ratiocv_core::{Draw, Estimator, Flags, Integrals, Plain, Scalar};
+
+/// Means, squares and products of draws in `f32` or `f64`, added one by one or at once: exact but for rounding, or
+/// flagged.
+///
+/// A mean may be off by 80 ε of the range of the numbers, a sum of squares by 400 ε·N of the square of that range (of
+/// the ranges of f and h on the steepest slope that residuals were about).
+pub fn moments(bytes: &[u8]) {
+    let mut bytes = Bytes::new(bytes);
+    let kind = bytes.byte();
+    let reach = if kind & 2 == 0 { Reach::Moderate } else { Reach::Finite };
+    if kind & 1 == 0 { of::<f32>(&mut bytes, reach) } else { of::<f64>(&mut bytes, reach) }
+}
+
+fn of<S: Scalar>(bytes: &mut Bytes<'_>, reach: Reach) {
+    let points = bytes.points::<S, 2>(reach, 200);
+    let draws: Vec<Draw<S>> = draws(&points);
+    let numbers = |entry: usize| -> Vec<f64> { points.iter().map(|point| point[entry]).collect() };
+    let (f, h) = (Truth::new(&numbers(0)), Truth::new(&numbers(1)));
+
+    let (mut one_by_one, mut steepest) = (Comoments::<S>::default(), 0.0_f64);
+    for draw in &draws {
+        one_by_one.add(*draw);
+        steepest = steepest.max(one_by_one.closed().channel(0).comoments().slope[0].abs());
+    }
+    let mut at_once = Comoments::<S>::default();
+    at_once.add_batch(&draws);
+    for (moments, how) in [(&one_by_one, "one by one"), (&at_once, "at once")] {
+        assert_eq!(moments.count(), draws.len() as u64);
+        let channel = moments.closed().channel(0);
+        let (means, spread) = (channel.means(moments.count()), channel.comoments());
+        f.mean_is::<S>(means.f, &format!("mean of f, {how}"));
+        h.mean_is::<S>(means.h[0], &format!("mean of h, {how}"));
+        if means.f.is_finite() && means.h[0].is_finite() {
+            h.products_are::<S>(&h, 0.0, spread.hh[0][0], &format!("squares of h, {how}"));
+        }
+        let plain = Plain.estimate_anyway(moments, &Integrals::ONE);
+        let unknown = Flags::OVERFLOW | Flags::UNDERFLOW | Flags::NONFINITE;
+        let flagged = (plain.flags(0) & unknown) != Flags::NONE || plain.flags(0).contains(Flags::NO_SUPPORT);
+        let known = plain.value.is_finite() && plain.std_error.is_finite();
+        assert!(known || flagged || draws.len() < 2, "{how}: unknown, and no flag says why: {plain:?}");
+        assert!(!(plain.std_error < 0.0));
+    }
+    // Residuals of the draws in one call are about other slopes.
+    let channel = one_by_one.closed().channel(0);
+    let (means, spread) = (channel.means(one_by_one.count()), channel.comoments());
+    if means.f.is_finite() && means.h[0].is_finite() && steepest.is_finite() {
+        h.products_are::<S>(&f, steepest, spread.fh(0), "products");
+        let own = f.widened(steepest * h.range);
+        // Residuals are f's and h's: what underflows of either is unknown.
+        if !(spread.ff().is_nan() && h.is_fine::<S>(&h)) {
+            own.products_are::<S>(&own, 0.0, spread.ff(), "squares of f");
+        }
+    }
+}
