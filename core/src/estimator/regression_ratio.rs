@@ -141,6 +141,12 @@ impl<S: HasMeans<K>, const K: usize> WithCoefficients<S, K> for RegressionRatio 
         {
             return estimate;
         }
-        ChannelEstimate { std_error: libm::hypot(estimate.std_error, curvature), ..estimate }
+        // An unknown error stays unknown: hypot(NaN, ∞) is ∞.
+        let std_error = match libm::hypot(estimate.std_error, curvature) {
+            error if error.is_infinite() || estimate.std_error.is_nan() => f64::NAN,
+            error => error,
+        };
+        let overflow = Flags::when(std_error.is_nan() && !estimate.std_error.is_nan(), Flags::OVERFLOW);
+        ChannelEstimate { std_error, flags: estimate.flags | overflow, ..estimate }
     }
 }

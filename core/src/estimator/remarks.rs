@@ -150,8 +150,9 @@ impl<const K: usize> Remarks<K> {
     /// `value`, whose variance is `variance_of_mean`.
     pub(super) fn value_with_variance(&self, value: f64, variance_of_mean: f64) -> ChannelEstimate {
         let estimate = self.value(value, &[0.0; K]);
-        let std_error = if self.known_error() { libm::sqrt(variance_of_mean) } else { f64::NAN };
-        ChannelEstimate { std_error, ..estimate }
+        let (std_error, overflow) =
+            if self.known_error() { error_of(variance_of_mean) } else { (f64::NAN, Flags::NONE) };
+        ChannelEstimate { std_error, flags: estimate.flags | overflow, ..estimate }
     }
 
     fn known_error(&self) -> bool {
@@ -177,8 +178,9 @@ impl<const K: usize> Remarks<K> {
                 flags |= Flags::when(below, Flags::ROUNDING);
                 let n = self.count as f64;
                 let variance = if below { floor } else { squares } / planted!("std_error_divisor": n - 1.0, n);
-                let error = libm::sqrt(variance / n);
-                if error.is_finite() { error } else { f64::NAN }
+                let (error, overflow) = error_of(variance / n);
+                flags |= overflow;
+                error
             }
         };
         ChannelEstimate { value: value + 0.0, std_error, flags }
@@ -211,6 +213,12 @@ impl Remarks {
 /// BAD_INTEGRAL, if it is.
 fn bad(integral: f64) -> Flags {
     Flags::when(integral == 0.0 || !integral.is_finite(), Flags::BAD_INTEGRAL)
+}
+
+/// The standard error of this variance; beyond the range it is unknown, and OVERFLOW says why.
+pub(super) fn error_of(variance: f64) -> (f64, Flags) {
+    let overflow = variance == f64::INFINITY;
+    (if overflow { f64::NAN } else { libm::sqrt(variance) }, Flags::when(overflow, Flags::OVERFLOW))
 }
 
 /// How many standard errors chance allows with `freedom` degrees of freedom: Student's quantile at

@@ -83,6 +83,7 @@ impl PowerHeuristic {
     #[cold]
     fn in_units_of_the_largest<const K: usize>(&self, counts: &[f64; K], pdfs: &[f64; K], largest: f64) -> [f64; K] {
         let product = |k: usize| match largest.is_finite() {
+            _ if counts[k] == 0.0 => Scaled::ZERO, // though its pdf be infinite
             true => Scaled::new(counts[k]) * Scaled::new(pdfs[k]),
             false if pdfs[k] == largest => Scaled::new(counts[k]),
             false => Scaled::ZERO,

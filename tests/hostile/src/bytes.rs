@@ -98,9 +98,8 @@ impl<'a> Bytes<'a> {
 
 /// Draws of points (f, h, …), channel `c` of draw `i` point i + 7c.
 pub(crate) fn draws<V: Lanes, const K: usize, const N: usize>(points: &[[f64; N]]) -> Vec<Draw<V, K>> {
-    let entry = |i: usize, channel: usize, number: usize| {
-        V::Scalar::from_f64(points[(i + 7 * channel) % points.len()][number])
-    };
+    let entry =
+        |i: usize, channel: usize, number: usize| V::Scalar::from_f64(points[(i + 7 * channel) % points.len()][number]);
     let lanes = |i: usize, number: usize| V::from_fn(|channel| entry(i, channel, number));
     (0..points.len()).map(|i| Draw { f: lanes(i, 0), h: core::array::from_fn(|k| lanes(i, k + 1)) }).collect()
 }
@@ -111,7 +110,21 @@ fn edges<S: Scalar>() -> [f64; 16] {
     let (huge, epsilon) = (Lanes::widen(<S as FloatCore>::max_value()), Lanes::widen(<S as FloatCore>::epsilon()));
     let (low, high) = (libm::sqrt(tiny), libm::sqrt(huge));
     [
-        tiny, tiny * epsilon, tiny * (1.0 - epsilon), tiny / epsilon, huge, -huge, huge / 4.0, huge * epsilon, low,
-        -low, low / 3.0, high, high * 3.0, 1.0 + epsilon, 1.0 - epsilon / 2.0, -tiny,
+        tiny,
+        tiny * epsilon,
+        tiny * (1.0 - epsilon),
+        tiny / epsilon,
+        huge,
+        -huge,
+        huge / 4.0,
+        huge * epsilon,
+        low,
+        -low,
+        low / 3.0,
+        high,
+        high * 3.0,
+        1.0 + epsilon,
+        1.0 - epsilon / 2.0,
+        -tiny,
     ]
 }

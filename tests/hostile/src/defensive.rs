@@ -4,8 +4,8 @@ use crate::bytes::{Bytes, Reach, draws};
 use crate::truth::Truth;
 use ratiocv_core::moments::{Accumulate, Comoments, Merge};
 use ratiocv_core::{
-    ChannelEstimate, CrossFitted, Difference, Draw, Estimator, Fit, Flags, HartleyRoss, Integrals, MeanOfRatios, Mickey,
-    OptimalDefensive, Plain, RandomMixture, RatioOfMeans, Reads, RegressionRatio, Scalar,
+    ChannelEstimate, CrossFitted, Difference, Draw, Estimator, Fit, Flags, HartleyRoss, Integrals, MeanOfRatios,
+    Mickey, OptimalDefensive, Plain, RandomMixture, RatioOfMeans, Reads, RegressionRatio, Scalar,
 };
 
 /// The defensive ratio is H·ȳ/(εH + (1−ε)x̄) but for rounding, and never unbounded where h and H are not negative; powers
@@ -102,12 +102,7 @@ fn is_right<S: Scalar>(ours: ChannelEstimate, points: &[[f64; 2]], weight: f64, 
 }
 
 /// Given exponents.
-fn powers<S: Scalar>(
-    moments: &Comoments<S>,
-    integrals: &Integrals<S>,
-    plain: ChannelEstimate,
-    any: f64,
-) {
+fn powers<S: Scalar>(moments: &Comoments<S>, integrals: &Integrals<S>, plain: ChannelEstimate, any: f64) {
     let power = |alpha: f64| RegressionRatio::default().fixed([alpha]).estimate_anyway(moments, integrals).channel(0);
     let ratio = RatioOfMeans.estimate_anyway(moments, integrals).channel(0);
     let same = |a: f64, b: f64| a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan();

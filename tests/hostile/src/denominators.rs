@@ -3,17 +3,16 @@
 use crate::bytes::{Bytes, Reach, draws};
 use crate::truth::{Truth, epsilon};
 use ratiocv_core::moments::{
-    Accumulate, Blocked, ComomentsBlock, ExtremesBlock, GroupsBlock, HasMeans, Joined, Moments, RatioOf, UnivariateBlock,
+    Accumulate, Blocked, ComomentsBlock, ExtremesBlock, GroupsBlock, HasMeans, Joined, Moments, RatioOf,
+    UnivariateBlock,
 };
 use ratiocv_core::{
-    Beale, ChannelEstimate, Draw, Estimator, Flags, HartleyRoss, Integrals, Jackknife, MeanOfRatios, Mickey,
-    Plain, Quenouille, RatioOfMeans, Scalar, Spectrum, Tin, conformance,
+    Beale, ChannelEstimate, Draw, Estimator, Flags, HartleyRoss, Integrals, Jackknife, MeanOfRatios, Mickey, Plain,
+    Quenouille, RatioOfMeans, Scalar, Spectrum, Tin, conformance,
 };
 
-type All<V> = Blocked<
-    V,
-    Joined<ComomentsBlock<V>, UnivariateBlock<RatioOf<V>, 1>, GroupsBlock<V, 8>, ExtremesBlock<V>>,
->;
+type All<V> =
+    Blocked<V, Joined<ComomentsBlock<V>, UnivariateBlock<RatioOf<V>, 1>, GroupsBlock<V, 8>, ExtremesBlock<V>>>;
 
 type Pair<S> = Spectrum<S, 2>;
 
@@ -36,10 +35,8 @@ fn of<S: Scalar>(bytes: &mut Bytes<'_>, reach: Reach) {
         let [f, h] = innocent(i).map(S::from_f64);
         (draw.f[1], draw.h[0][1]) = (f, h);
     }
-    let harmless: Vec<Draw<Pair<S>>> = lanes
-        .iter()
-        .map(|draw| Draw::new(Spectrum([draw.f[1]; 2]), Spectrum([draw.h[0][1]; 2])))
-        .collect();
+    let harmless: Vec<Draw<Pair<S>>> =
+        lanes.iter().map(|draw| Draw::new(Spectrum([draw.f[1]; 2]), Spectrum([draw.h[0][1]; 2]))).collect();
     let add = |draws: &[Draw<Pair<S>>]| {
         let mut moments = All::<Pair<S>>::default();
         draws.iter().for_each(|draw| moments.add(*draw));
@@ -89,6 +86,8 @@ fn is_sound(ours: ChannelEstimate, plain: ChannelEstimate, points: &[[f64; 2]], 
     if flags.fell_back() && plain.value.is_finite() {
         assert_eq!(value.to_bits(), plain.value.to_bits(), "it fell back, but not to the plain mean: {}", about());
     }
+    let why = Flags::OVERFLOW | Flags::UNDERFLOW | Flags::NONFINITE | Flags::NO_SUPPORT | Flags::EMPTY;
+    assert!(!std_error.is_nan() || points.len() == 1 || flags & why != Flags::NONE, "an unknown error: {}", about());
     let bad = integral == 0.0 || !integral.is_finite();
     assert_eq!(flags.contains(Flags::BAD_INTEGRAL), bad, "{}", about());
     assert_eq!(flags.contains(Flags::ONE_SAMPLE), points.len() == 1, "{}", about());
@@ -100,7 +99,9 @@ fn is_sound(ours: ChannelEstimate, plain: ChannelEstimate, points: &[[f64; 2]], 
         assert!(flags.contains(Flags::NO_SUPPORT) && value == 0.0 && std_error.is_nan(), "black: {}", about());
     }
     let unbounded = points.iter().any(|[f, h]| *h == 0.0 && *f != 0.0);
-    if flags.contains(Flags::UNBOUNDED_RATIO) && points.iter().all(|[f, h]| f.abs() < 1e6 && (*h == 0.0 || h.abs() > 1e-7)) {
+    if flags.contains(Flags::UNBOUNDED_RATIO)
+        && points.iter().all(|[f, h]| f.abs() < 1e6 && (*h == 0.0 || h.abs() > 1e-7))
+    {
         assert!(unbounded, "no f/h is unbounded: {}", about());
     }
     if is(1, |h| h == 0.0) && !is(0, |f| f == 0.0) && is(0, f64::is_finite) {
@@ -118,8 +119,14 @@ fn is_right<S: Scalar>(ours: ChannelEstimate, mean_h: f64, points: &[[f64; 2]], 
     }
     if flags.fell_back() {
         let mean = h.sum.over(&h.count);
-        let reason = integral == 0.0 || !integral.is_finite() || mean_h == 0.0 || !mean_h.is_finite()
-            || mean.abs() <= h.mean_tolerance::<S>() || !ours.value.is_finite() || f.range > 1e30 || f.most > 1e30
+        let reason = integral == 0.0
+            || !integral.is_finite()
+            || mean_h == 0.0
+            || !mean_h.is_finite()
+            || mean.abs() <= h.mean_tolerance::<S>()
+            || !ours.value.is_finite()
+            || f.range > 1e30
+            || f.most > 1e30
             || f.most / mean.abs() * integral.abs() > 1e300;
         assert!(reason, "no reason to fall back: {ours:?}, mean of h {mean_h:e}");
         return;
@@ -131,10 +138,18 @@ fn is_right<S: Scalar>(ours: ChannelEstimate, mean_h: f64, points: &[[f64; 2]], 
     }
     let right = f.sum.over(&h.sum);
     let right = libm::ldexp(right, -64) * integral;
-    if !(right.abs() < libm::ldexp(f64::MAX, -64)) || right.abs() < 1e-280 || mean_f.abs() < 1e-280 || mean_h.abs() < 1e-280 {
+    if !(right.abs() < libm::ldexp(f64::MAX, -64))
+        || right.abs() < 1e-280
+        || mean_f.abs() < 1e-280
+        || mean_h.abs() < 1e-280
+    {
         return;
     }
     let allowed = f.mean_tolerance::<S>() / mean_f.abs() + 2.0 * lost + 8.0 * f64::EPSILON;
     let off = (libm::ldexp(value, -64) - right).abs() / right.abs();
-    assert!(off <= allowed * (1.0 + allowed), "{value:e} is off by {off:e}, allowed {allowed:e}: {ours:?}, ε {}", epsilon::<S>());
+    assert!(
+        off <= allowed * (1.0 + allowed),
+        "{value:e} is off by {off:e}, allowed {allowed:e}: {ours:?}, ε {}",
+        epsilon::<S>()
+    );
 }

@@ -64,7 +64,8 @@ fn of<S: Scalar, const K: usize>(bytes: &mut Bytes<'_>) {
             // By the definition, where nothing can leave the range.
             let plain = [counts[j], counts[k], pdfs[j], pdfs[k]].iter().all(|x| (1e-3..1e3).contains(x));
             if plain && heuristic == PowerHeuristic::SQUARE && weights[k] > 1e-30 {
-                let right = (counts[j] * pdfs[j]) * (counts[j] * pdfs[j]) / ((counts[k] * pdfs[k]) * (counts[k] * pdfs[k]));
+                let right =
+                    (counts[j] * pdfs[j]) * (counts[j] * pdfs[j]) / ((counts[k] * pdfs[k]) * (counts[k] * pdfs[k]));
                 let off = (weights[j] / weights[k] / right - 1.0).abs();
                 assert!(off <= 8.0 * epsilon::<S>(), "w_{j}/w_{k} should be {right}: {about}");
             }

@@ -30,13 +30,18 @@ fn of<S: Scalar>(bytes: &mut Bytes<'_>, reach: Reach) {
         let size = if i + 1 == choices.len() { rest.len() } else { (choice % 80).min(rest.len()) };
         let (part, after) = rest.split_at(size);
         let mut moments = All::<S>::default();
-        if choice & 64 == 0 { part.iter().for_each(|draw| moments.add(*draw)) } else { moments.add_batch(part) }
+        if choice & 64 == 0 {
+            part.iter().for_each(|draw| moments.add(*draw))
+        } else {
+            moments.add_batch(part)
+        }
         parts.push(moments);
         rest = after;
     }
     for step in (1..choices.len()).rev() {
         let left = choices[step] % (parts.len() - 1);
-        let right = if choices[0] & 1 == 0 { left + 1 } else { left + 1 + choices[step - 1] % (parts.len() - 1 - left) };
+        let right =
+            if choices[0] & 1 == 0 { left + 1 } else { left + 1 + choices[step - 1] % (parts.len() - 1 - left) };
         in_order &= right == left + 1;
         let later = parts.remove(right);
         parts[left].merge(&later);

@@ -52,8 +52,8 @@ fn of<S: Scalar>(bytes: &mut Bytes<'_>, reach: Reach) {
     if means.f.is_finite() && means.h[0].is_finite() && steepest.is_finite() {
         h.products_are::<S>(&f, steepest, spread.fh(0), "products");
         let own = f.widened(steepest * h.range);
-        // Residuals are f's and h's: what underflows of either is unknown.
-        if !(spread.ff().is_nan() && h.is_fine::<S>(&h)) {
+        // Residuals about a slope may underflow where neither f nor h does; that is flagged, above.
+        if !spread.ff().is_nan() || steepest == 0.0 {
             own.products_are::<S>(&own, 0.0, spread.ff(), "squares of f");
         }
     }

@@ -3,7 +3,7 @@
 use crate::bytes::{Bytes, Reach};
 use crate::exact::Exact;
 use ratiocv_core::moments::{Accumulate, Merge};
-use ratiocv_core::{Draw, Flags, Integrals, Lanes, PathProduct, ScaledSums, Spectrum};
+use ratiocv_core::{Draw, Flags, Integrals, PathProduct, ScaledSums, Spectrum};
 
 type V = Spectrum<f32, 2>;
 
@@ -33,7 +33,11 @@ pub fn paths(bytes: &[u8]) {
         assert_eq!((path.trivial(0), single.trivial(0)), (trivial, trivial), "factors of 1");
         assert_eq!(single.draw().f.to_bits(), draw.f[0].to_bits(), "the other channel changed f");
         assert_eq!(single.draw().h[0].to_bits(), draw.h[0][0].to_bits(), "the other channel changed h");
-        if i < split { sums.add(path) } else { later.add(path) }
+        if i < split {
+            sums.add(path)
+        } else {
+            later.add(path)
+        }
         alone.add(single);
         f_sum.push(f);
         h_sum.push(h);

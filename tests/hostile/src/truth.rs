@@ -52,7 +52,8 @@ impl Truth {
     /// How far a mean in `S` may be from the true one, absolutely.
     pub(crate) fn mean_tolerance<S: Scalar>(&self) -> f64 {
         let n = self.numbers.len() as f64;
-        OF_MEANS * epsilon::<S>() * self.range + f64::EPSILON * (4.0 * self.most + (n + 8.0) * self.range)
+        OF_MEANS * epsilon::<S>() * self.range
+            + f64::EPSILON * (4.0 * self.most + (n + 8.0) * self.range)
             + (n + 4.0) * 5e-324
     }
 
@@ -77,7 +78,10 @@ impl Truth {
         let largest = range(self).max(range(other));
         if !ours.is_finite() {
             let over = largest > libm::sqrt(greatest::<S>()) / 4096.0;
-            assert!(over || ours.is_nan() && self.is_fine::<S>(other), "{what}: {ours} though no square leaves the range");
+            assert!(
+                over || ours.is_nan() && self.is_fine::<S>(other),
+                "{what}: {ours} though no square leaves the range"
+            );
             return;
         }
         if !size.is_finite() {
@@ -91,7 +95,7 @@ impl Truth {
     }
 
     /// Whether numbers are so close together that squares of their differences may underflow.
-    pub(crate) fn is_fine<S: Scalar>(&self, other: &Self) -> bool {
+    fn is_fine<S: Scalar>(&self, other: &Self) -> bool {
         let limit = 64.0 * libm::sqrt(Lanes::widen(<S as FloatCore>::min_positive_value()) / epsilon::<S>());
         [self, other].iter().any(|truth| {
             let mut sorted: Vec<f64> = truth.numbers.iter().map(Exact::value).collect();

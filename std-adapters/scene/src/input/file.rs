@@ -196,10 +196,13 @@ impl<'a> File<'a> {
             result.push_str(before);
             let word = after.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(after.len());
             // The longest name that fits, as "1$a" may be followed by letters.
-            let fits = (1..=word).rev().filter(|end| planted!("scene_text": after.is_char_boundary(*end), true)).find_map(|end| {
-                let (value, defined) = self.defaults.get(&after[..end])?;
-                (*defined < node.id().get()).then_some((value, end))
-            });
+            let fits = (1..=word)
+                .rev()
+                .filter(|end| planted!("scene_text": after.is_char_boundary(*end), true))
+                .find_map(|end| {
+                    let (value, defined) = self.defaults.get(&after[..end])?;
+                    (*defined < node.id().get()).then_some((value, end))
+                });
             let Some((value, end)) = fits else {
                 let what = format!(
                     "nothing before this line defines ${}; <default name=\"…\" value=\"…\"/> does",

@@ -7,21 +7,26 @@ use ratiocv_scene::{Description, Leniency, Scene};
 /// that names the file, and is short. What is read strictly is read leniently too.
 pub fn scene(bytes: &[u8]) {
     let Ok(text) = core::str::from_utf8(bytes) else { return };
-    let read = [Leniency::Strict, Leniency::Lenient].map(|leniency| match Description::parse(text, "scene.xml", leniency) {
-        Ok((description, warnings)) => {
-            let _ = Scene::<Spectrum<f32, 3>>::new(&description, &Default::default());
-            assert!((0.0..=180.0).contains(&description.camera.fov), "a field of view of {}°", description.camera.fov);
-            for warning in &warnings {
-                is_short(&warning.to_string());
+    let read =
+        [Leniency::Strict, Leniency::Lenient].map(|leniency| match Description::parse(text, "scene.xml", leniency) {
+            Ok((description, warnings)) => {
+                let _ = Scene::<Spectrum<f32, 3>>::new(&description, &Default::default());
+                assert!(
+                    (0.0..=180.0).contains(&description.camera.fov),
+                    "a field of view of {}°",
+                    description.camera.fov
+                );
+                for warning in &warnings {
+                    is_short(&warning.to_string());
+                }
+                true
             }
-            true
-        }
-        Err(error) => {
-            is_short(&error.to_string());
-            assert!(error.line().is_none_or(|line| line <= 1 + text.matches('\n').count()), "{error}");
-            false
-        }
-    });
+            Err(error) => {
+                is_short(&error.to_string());
+                assert!(error.line().is_none_or(|line| line <= 1 + text.matches('\n').count()), "{error}");
+                false
+            }
+        });
     assert!(!read[0] || read[1], "read strictly, but not leniently");
 }
 
