@@ -1,5 +1,5 @@
 use crate::ladder;
-use ratiocv_core::Jackknife;
+use ratiocv_core::{Flags, Jackknife};
 use ratiocv_tests::assert_close;
 
 /// Eight groups dealt round robin, in deviations from 1e9: R̂₍₋g₎H − 1e9 = (H − 1e9) + (f − h)·H/x̄, f and h the
@@ -56,4 +56,12 @@ fn groups_of_two_sizes() {
     assert_close(ours.std_error, variance.sqrt(), 1e-14, "standard error");
     // With one auxiliary the first group counts twice: weights of 1 throughout would give another value.
     assert_eq!(without(0).0, 4.5);
+}
+
+/// Found by fuzzing: the square of the error left the range, and the error was infinite, without a flag.
+#[test]
+fn an_error_out_of_range_is_unknown_and_flagged() {
+    let ours = ladder::run(Jackknife, &[(1.0, 1.0), (-2.0, 3.0), (3.0, 2.0)], 1e300);
+    assert!(ours.value.is_finite() && ours.std_error.is_nan(), "{ours:?}");
+    assert!(ours.flags.contains(Flags::OVERFLOW), "{ours:?}");
 }

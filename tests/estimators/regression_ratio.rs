@@ -1,6 +1,8 @@
 use crate::fitted;
 use crate::ladder::{self, CORRELATED, INTEGRAL_OF_CORRELATED, run};
-use ratiocv_core::{Dependent, Flags, Regression, RegressionRatio};
+use ratiocv_core::moments::Comoments;
+use ratiocv_core::{Dependent, Estimator, Flags, Integrals, Regression, RegressionRatio};
+use ratiocv_tests::samples::filled;
 
 const REGRESSION_RATIO: RegressionRatio = RegressionRatio {
     regression: Regression { dependent: Dependent::MinimumNorm, shrink: true },
@@ -58,4 +60,17 @@ fn an_auxiliary_that_is_constant_in_the_draws_gets_the_exponent_for_that() {
     assert_eq!(run(REGRESSION_RATIO, &draws, 4.0).value, 3.0);
     let ratio = RegressionRatio { undetermined: 1.0, ..REGRESSION_RATIO };
     assert_eq!(run(ratio, &draws, 4.0).value, 6.0);
+}
+
+/// Found by fuzzing: the distance of a power from the difference left the range, and so did the error.
+#[test]
+fn an_error_out_of_range_is_unknown() {
+    let product = |draws: &[(f64, f64)]| {
+        let moments = filled(Comoments::<f64>::default(), draws.iter().copied());
+        RegressionRatio::default().fixed([-1.0]).estimate_anyway(&moments, &Integrals::new([1e308])).channel(0)
+    };
+    let one = product(&[(1e7, 1e-10)]);
+    assert!(one.value.is_finite() && one.std_error.is_nan(), "{one:?}");
+    let three = product(&[(1e7, 1e-10), (2e7, 3e-10), (1e7, 2e-10)]);
+    assert!(three.std_error.is_nan() && three.flags.contains(Flags::OVERFLOW), "{three:?}");
 }

@@ -56,6 +56,25 @@ fn e15_no_size_of_pdf_leaves_the_range() {
     assert_eq!(BALANCE.weights(&[0.0, 3.0], &[f64::INFINITY, 1.0]), [0.0, 1.0]);
 }
 
+/// Found by fuzzing: n_k·g_k, or its power, left the range though every weight is an ordinary number.
+#[test]
+fn no_size_of_counts_leaves_the_range() {
+    for heuristic in [BALANCE, SQUARE, PowerHeuristic::new(1e13).unwrap()] {
+        for count in [1e-300, 1e-170, 1e170, 1e300] {
+            assert_eq!(heuristic.weights(&[count; 2], &[3.0_f64; 2]), [0.5; 2], "{count:e}");
+            assert_eq!(heuristic.weights(&[count; 2], &[f64::INFINITY; 2]), [0.5; 2], "{count:e}");
+            // A large count makes up for a small pdf.
+            assert_eq!(heuristic.weights(&[1e-300, 1e300], &[1e300, 1e-300_f64]), [0.5; 2]);
+        }
+        // The delta of a technique without draws is not there, whatever the others are.
+        assert_eq!(heuristic.weights(&[1e300, 0.0], &[f64::MAX, f64::INFINITY]), [1.0, 0.0]);
+        assert!(heuristic.weights(&[f64::INFINITY, 1.0], &[1.0_f64; 2]).iter().all(|w| w.is_nan()));
+    }
+    let [a, b] = SQUARE.weights(&[1e200, 2e200], &[1.0_f64; 2]);
+    assert_close(a, 0.2, 1e-15, "weight");
+    assert_close(b, 0.8, 1e-15, "weight");
+}
+
 #[test]
 fn e14_zero_pdfs_have_zero_weights() {
     for heuristic in [BALANCE, SQUARE] {

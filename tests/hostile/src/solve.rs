@@ -64,6 +64,14 @@ fn of<const K: usize, const N: usize>(bytes: &mut Bytes<'_>) {
         };
         let dependent = !varying.is_empty() && determinant(&rows(&varying)).is_zero();
         assert!(!dependent || flags.contains(Flags::RANK), "dependent auxiliaries and no RANK: {beta:?} {flags}");
+        // Of the many solutions it is one: the normal equations hold.
+        let size = entries[0].range + steepest + (0..K).map(|j| beta[j].abs() * entries[j + 1].range).sum::<f64>();
+        for i in 0..K {
+            let ours = Exact::sum((0..K).map(|j| &matrix[i][j] * &Exact::new(beta[j])));
+            let off = (&ours - &right[i]).abs().over(&entries[0].count);
+            let allowed = 100.0 * rounding * entries[i + 1].range * size;
+            assert!(off <= allowed, "equation {i} of {beta:?} is off by {off:e}, allowed {allowed:e}");
+        }
     } else if least > 1e-6 {
         assert!(!flags.contains(Flags::RANK), "independent auxiliaries, share {least:e}, and RANK: {beta:?}");
         for k in 0..K {
