@@ -1,7 +1,7 @@
 //! A linear combination of auxiliaries is an auxiliary: its moments, formed when the estimate is made.
 
 use crate::estimate::ChannelEstimate;
-use crate::estimator::remarks::Remarks;
+use crate::estimator::remarks::{Remarks, with_error};
 use crate::estimator::{Coefficients, Estimator, Sample};
 use crate::flags::Flags;
 use crate::moments::{Group, HasComoments, HasGroups, HasMeans, HasRatioMean, Means, RatioMoments, Spread, Tails};
@@ -52,10 +52,9 @@ impl<S, const K: usize> Combined<'_, S, K> {
             core::array::from_fn(|k| if weights.values[k] == 0.0 { 0.0 } else { weights.values[k] / integrals[k] });
         let combined =
             Combined { moments: sample.moments, constant: of_proposal, coefficients: over_integral, weight: f64::NAN };
-        let ChannelEstimate { value, std_error, flags } =
-            estimator.estimate_channel(&sample.of(&combined), &[integral]);
-        let wider = remarks.wider(weights.parameters);
-        ChannelEstimate { value, std_error: std_error * wider, flags: flags | weights.flags }
+        let estimate = estimator.estimate_channel(&sample.of(&combined), &[integral]);
+        let flags = estimate.flags | weights.flags;
+        with_error(ChannelEstimate { flags, ..estimate }, |error| error * remarks.wider(weights.parameters))
     }
 
     /// A mean of h′ from those of each h.

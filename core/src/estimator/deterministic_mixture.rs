@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::estimate::ChannelEstimate;
 use crate::estimator::jackknife::{jackknifed, others};
-use crate::estimator::remarks::error_of;
+use crate::estimator::remarks::with_error;
 use crate::estimator::{Estimator, Sample};
 use crate::flags::Flags;
 use crate::moments::HasPairs;
@@ -77,7 +77,6 @@ impl<S: HasPairs<K>, const K: usize> Estimator<S, K> for DeterministicMixture {
             _ => f64::NAN,
         };
         let value = if value.is_finite() { value + 0.0 } else { f64::NAN };
-        let (std_error, overflow) = error_of(variance);
-        ChannelEstimate { value, std_error, flags: flags | overflow }
+        with_error(ChannelEstimate { value, std_error: f64::NAN, flags }, |_| libm::sqrt(variance))
     }
 }

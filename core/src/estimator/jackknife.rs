@@ -56,7 +56,7 @@ impl<S: HasMeans + HasGroups> Estimator<S> for Jackknife {
         };
         let sizes = || (0..sample.moments.groups()).map(|g| group(g).count).filter(|count| *count > 0);
         match jackknifed(ratio.value, sample.count, sizes(), without) {
-            Some((value, variance)) => remarks.value_with_variance(value, variance),
+            Some((value, variance)) => remarks.value_with_error(value, libm::sqrt(variance)),
             None => remarks.plain(remarks.zero_denominator()),
         }
     }

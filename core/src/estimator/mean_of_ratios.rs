@@ -54,9 +54,9 @@ impl<S: HasMeans + HasRatioMean> Estimator<S> for MeanOfRatios {
                 remarks.plain(Flags::UNBOUNDED_RATIO | Flags::when(!known, Flags::NONFINITE))
             }
             Some(ratio) => {
-                let variance = ratio.squares.map_or(f64::NAN, |squares| squares / (n - 1.0) / n);
+                let error = ratio.squares.map_or(f64::NAN, |squares| libm::sqrt(squares / (n - 1.0) / n));
                 let value = planted!("mean_of_ratios_integral": integral, 1.0) * ratio.mean;
-                remarks.value_with_variance(value, integral * integral * variance)
+                remarks.value_with_error(value, integral.abs() * error)
             }
         }
     }

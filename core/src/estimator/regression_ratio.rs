@@ -2,7 +2,7 @@
 
 use crate::estimate::ChannelEstimate;
 use crate::estimator::fixed::fits_its_own_draws;
-use crate::estimator::remarks::Remarks;
+use crate::estimator::remarks::{Remarks, with_error};
 use crate::estimator::{Coefficients, Fit, Fixed, Regression, Sample, WithCoefficients};
 use crate::flags::Flags;
 use crate::moments::{ComomentsBlock, HasComoments, HasMeans};
@@ -142,11 +142,6 @@ impl<S: HasMeans<K>, const K: usize> WithCoefficients<S, K> for RegressionRatio 
             return estimate;
         }
         // An unknown error stays unknown: hypot(NaN, ∞) is ∞.
-        let std_error = match libm::hypot(estimate.std_error, curvature) {
-            error if error.is_infinite() || estimate.std_error.is_nan() => f64::NAN,
-            error => error,
-        };
-        let overflow = Flags::when(std_error.is_nan() && !estimate.std_error.is_nan(), Flags::OVERFLOW);
-        ChannelEstimate { std_error, flags: estimate.flags | overflow, ..estimate }
+        with_error(estimate, |error| if error.is_nan() { error } else { libm::hypot(error, curvature) })
     }
 }

@@ -129,8 +129,7 @@ impl<const K: usize> Remarks<K> {
     pub(super) fn value_with_fit(&self, value: f64, c: &[f64; K], parameters: f64) -> ChannelEstimate {
         let value = value + 0.0; // −0 becomes 0
         let negative = Flags::when(value < 0.0 && self.mean_f >= 0.0, Flags::NEGATIVE);
-        let estimate = self.finish(value, c, negative);
-        ChannelEstimate { std_error: estimate.std_error * self.wider(parameters), ..estimate }
+        with_error(self.finish(value, c, negative), |error| error * self.wider(parameters))
     }
 
     /// By how much fitting `parameters` coefficients to the draws widens the error bar: they took that
@@ -147,12 +146,10 @@ impl<const K: usize> Remarks<K> {
         if freedom > 0.0 { libm::sqrt(reach * planted!("fit_freedom": (n - 1.0) / freedom, 1.0)) } else { f64::NAN }
     }
 
-    /// `value`, whose variance is `variance_of_mean`.
-    pub(super) fn value_with_variance(&self, value: f64, variance_of_mean: f64) -> ChannelEstimate {
-        let estimate = self.value(value, &[0.0; K]);
-        let (std_error, overflow) =
-            if self.known_error() { error_of(variance_of_mean) } else { (f64::NAN, Flags::NONE) };
-        ChannelEstimate { std_error, flags: estimate.flags | overflow, ..estimate }
+    /// `value`, whose standard error is `error`.
+    pub(super) fn value_with_error(&self, value: f64, error: f64) -> ChannelEstimate {
+        let known = self.known_error();
+        with_error(self.value(value, &[0.0; K]), |_| if known { error } else { f64::NAN })
     }
 
     fn known_error(&self) -> bool {
@@ -178,12 +175,10 @@ impl<const K: usize> Remarks<K> {
                 flags |= Flags::when(below, Flags::ROUNDING);
                 let n = self.count as f64;
                 let variance = if below { floor } else { squares } / planted!("std_error_divisor": n - 1.0, n);
-                let (error, overflow) = error_of(variance / n);
-                flags |= overflow;
-                error
+                libm::sqrt(variance / n)
             }
         };
-        ChannelEstimate { value: value + 0.0, std_error, flags }
+        with_error(ChannelEstimate { value: value + 0.0, std_error, flags }, |error| error)
     }
 }
 
@@ -215,10 +210,12 @@ fn bad(integral: f64) -> Flags {
     Flags::when(integral == 0.0 || !integral.is_finite(), Flags::BAD_INTEGRAL)
 }
 
-/// The standard error of this variance; beyond the range it is unknown, and OVERFLOW says why.
-pub(super) fn error_of(variance: f64) -> (f64, Flags) {
-    let overflow = variance == f64::INFINITY;
-    (if overflow { f64::NAN } else { libm::sqrt(variance) }, Flags::when(overflow, Flags::OVERFLOW))
+/// `estimate` with another standard error. One beyond the range is unknown, and OVERFLOW says why.
+pub(super) fn with_error(estimate: ChannelEstimate, error: impl FnOnce(f64) -> f64) -> ChannelEstimate {
+    match error(estimate.std_error) {
+        f64::INFINITY => ChannelEstimate { std_error: f64::NAN, flags: estimate.flags | Flags::OVERFLOW, ..estimate },
+        std_error => ChannelEstimate { std_error, ..estimate },
+    }
 }
 
 /// How many standard errors chance allows with `freedom` degrees of freedom: Student's quantile at
