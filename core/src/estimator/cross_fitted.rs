@@ -63,11 +63,10 @@ where
         }
         let second = estimate(1);
         let share = |one: usize| fold(one).count as f64 / sample.count as f64;
-        let variance = |one: usize, estimate: &ChannelEstimate, other: &ChannelEstimate| {
-            // A fold that saw nothing beside one that did has a variance like any other: 0.
+        let error = |one: usize, estimate: &ChannelEstimate, other: &ChannelEstimate| {
+            // A fold that saw nothing beside one that did has an error like any other: 0.
             let only_one_blind = estimate.flags.contains(Flags::NO_SUPPORT) && !other.flags.contains(Flags::NO_SUPPORT);
-            let error = if only_one_blind { 0.0 } else { share(one) * estimate.std_error };
-            error * error
+            if only_one_blind { 0.0 } else { share(one) * estimate.std_error }
         };
         let mut flags = first.flags | second.flags;
         if !(first.flags.contains(Flags::NO_SUPPORT) && second.flags.contains(Flags::NO_SUPPORT)) {
@@ -75,7 +74,8 @@ where
         }
         ChannelEstimate {
             value: share(0) * first.value + share(1) * second.value,
-            std_error: libm::sqrt(variance(0, &first, &second) + variance(1, &second, &first)),
+            // Their squares may leave the range.
+            std_error: libm::hypot(error(0, &first, &second), error(1, &second, &first)),
             flags,
         }
     }

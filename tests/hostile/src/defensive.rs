@@ -44,11 +44,10 @@ fn of<S: Scalar>(bytes: &mut Bytes<'_>, reach: Reach) {
     let mickey = Mickey.defensive(weight).expect("a weight");
     each!(ratio, ratios, hartley_ross, mickey, Difference::default(), RegressionRatio::default());
     each!(OptimalDefensive::<RatioOfMeans>::default(), RandomMixture::<RatioOfMeans>::default());
-    // Its plain mean is put together from two folds.
+    // Its plain mean is put together from two folds, and a fold alone may overflow.
     let folds = CrossFitted(Difference::default());
     let folded = folds.estimate_anyway(&added(folds.error_bar::<S>(&integrals), &draws), &integrals).channel(0);
     is_sound(folded, ChannelEstimate { value: f64::NAN, ..plain }, "cross-fitted");
-    assert!(!plain.value.is_finite() || folded.value.is_finite(), "the plain mean is a number: {folded:?}");
 
     let moments = added(Comoments::<S>::default(), &draws);
     let defended = ratio.estimate_anyway(&moments, &integrals).channel(0);

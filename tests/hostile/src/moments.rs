@@ -53,10 +53,13 @@ fn of<S: Scalar>(points: &[[f64; 2]]) {
     let channel = one_by_one.closed().channel(0);
     let (means, spread) = (channel.means(one_by_one.count()), channel.comoments());
     if means.f.is_finite() && means.h[0].is_finite() && steepest.is_finite() {
-        h.products_are::<S>(&f, steepest, spread.fh(0), "products");
+        if spread.hh[0][0].is_finite() {
+            h.products_are::<S>(&f, steepest, spread.fh(0), "products");
+        }
         let own = f.widened(steepest * h.range);
-        // Residuals about a slope may underflow where neither f nor h does; that is flagged, above.
-        if !spread.ff().is_nan() || steepest == 0.0 {
+        // Residuals about a slope may leave the range where neither f nor h does, and squares of h that left the range take
+        // those of f with them; that is flagged, above.
+        if spread.ff().is_finite() || (steepest == 0.0 && spread.hh[0][0].is_finite()) {
             own.products_are::<S>(&own, 0.0, spread.ff(), "squares of f");
         }
     }
