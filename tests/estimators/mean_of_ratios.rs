@@ -1,5 +1,5 @@
 use crate::ladder;
-use ratiocv_core::MeanOfRatios;
+use ratiocv_core::{Flags, MeanOfRatios};
 
 ladder::ladder! {
     MeanOfRatios,
@@ -20,4 +20,16 @@ ladder::ladder! {
 #[test]
 fn proportional() {
     ladder::proportional(MeanOfRatios);
+}
+
+/// Found by fuzzing: squares of the ratios, or H², left the range, and no flag said why the error was unknown.
+#[test]
+fn an_unknown_error_is_flagged() {
+    let tiny = ladder::run(MeanOfRatios, &[(1e-200, 1.0), (3e-200, 1.0), (2e-200, 2.0)], 1.0);
+    assert!(tiny.std_error.is_nan() && tiny.flags.contains(Flags::UNDERFLOW), "{tiny:?}");
+    let huge = ladder::run(MeanOfRatios, &[(1e200, 1.0), (3e200, 1.0), (2e200, 2.0)], 1.0);
+    assert!(huge.std_error.is_nan() && huge.flags.contains(Flags::OVERFLOW), "{huge:?}");
+    // The square of H is not formed.
+    let exact = ladder::run(MeanOfRatios, &[(2.0, 1.0), (4.0, 2.0)], 1e200);
+    assert_eq!((exact.value, exact.std_error), (2e200, 0.0));
 }

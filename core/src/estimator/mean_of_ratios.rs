@@ -56,7 +56,9 @@ impl<S: HasMeans + HasRatioMean> Estimator<S> for MeanOfRatios {
             Some(ratio) => {
                 let error = ratio.squares.map_or(f64::NAN, |squares| libm::sqrt(squares / (n - 1.0) / n));
                 let value = planted!("mean_of_ratios_integral": integral, 1.0) * ratio.mean;
-                remarks.value_with_error(value, integral.abs() * error)
+                // Infinite squares make an infinite error, which says so itself.
+                let underflow = n > 1.0 && ratio.squares.is_some_and(f64::is_nan);
+                remarks.and(Flags::when(underflow, Flags::UNDERFLOW)).value_with_error(value, integral.abs() * error)
             }
         }
     }

@@ -96,8 +96,8 @@ fn is_sound(ours: ChannelEstimate, plain: ChannelEstimate, points: &[[f64; 2]], 
     }
     let is = |entry: usize, test: fn(f64) -> bool| points.iter().all(|point| test(point[entry]));
     if is(0, |f| f == 0.0) && is(1, f64::is_finite) {
-        // Where squares of h left the range, those of f are unknown too.
-        let unseen = flags & (Flags::NO_SUPPORT | Flags::UNDERFLOW | Flags::OVERFLOW) != Flags::NONE;
+        // Where h or its squares left the range, squares of f are unknown too.
+        let unseen = flags & why != Flags::NONE;
         assert!(unseen && value == 0.0 && std_error.is_nan(), "black: {}", about());
     }
     let unbounded = points.iter().any(|[f, h]| *h == 0.0 && *f != 0.0);
