@@ -58,7 +58,11 @@ impl<S: HasMeans + HasRatioMean> Estimator<S> for MeanOfRatios {
                 let value = planted!("mean_of_ratios_integral": integral, 1.0) * ratio.mean;
                 // Infinite squares make an infinite error, which says so itself.
                 let underflow = n > 1.0 && ratio.squares.is_some_and(f64::is_nan);
-                remarks.and(Flags::when(underflow, Flags::UNDERFLOW)).value_with_error(value, integral.abs() * error)
+                // Every f was 0: known of the ratios even where squares of h are not.
+                let unseen =
+                    sample.moments.means(sample.count).f == 0.0 && ratio.mean == 0.0 && ratio.squares == Some(0.0);
+                let more = Flags::when(underflow, Flags::UNDERFLOW) | Flags::when(unseen, Flags::NO_SUPPORT);
+                remarks.and(more).value_with_error(value, integral.abs() * error)
             }
         }
     }

@@ -173,6 +173,8 @@ impl<const K: usize> Remarks<K> {
                 let floor = spread.rounding_floor(self.epsilon);
                 let below = squares > 0.0 && squares < floor;
                 flags |= Flags::when(below, Flags::ROUNDING);
+                // ∞ − ∞: a coefficient whose square is beyond the range.
+                flags |= Flags::when(squares.is_nan() && !flags.contains(Flags::UNDERFLOW), Flags::OVERFLOW);
                 let n = self.count as f64;
                 let variance = if below { floor } else { squares } / planted!("std_error_divisor": n - 1.0, n);
                 libm::sqrt(variance / n)
