@@ -70,6 +70,9 @@ fn no_size_of_counts_leaves_the_range() {
         assert_eq!(heuristic.weights(&[1e300, 0.0], &[f64::MAX, f64::INFINITY]), [1.0, 0.0]);
         assert!(heuristic.weights(&[f64::INFINITY, 1.0], &[1.0_f64; 2]).iter().all(|w| w.is_nan()));
     }
+    // Squares of 1e-155 are denormal: three digits would be left.
+    let [small, large, _] = SQUARE.weights(&[1.0, 1.0, 1e-308], &[0.875, 14.0, 1e154]);
+    assert_close(large / small, 256.0, 1e-12, "ratio of weights");
     let [a, b] = SQUARE.weights(&[1e200, 2e200], &[1.0_f64; 2]);
     assert_close(a, 0.2, 1e-15, "weight");
     assert_close(b, 0.8, 1e-15, "weight");

@@ -137,12 +137,14 @@ fn is_right<S: Scalar>(ours: ChannelEstimate, mean_h: f64, points: &[[f64; 2]], 
     if !(lost < 0.1) {
         return;
     }
-    let right = f.sum.over(&h.sum);
-    let right = libm::ldexp(right, -64) * integral;
+    let ratio = f.sum.over(&h.sum);
+    let right = ratio * libm::ldexp(integral, -64);
     if !(right.abs() < libm::ldexp(f64::MAX, -64))
         || right.abs() < 1e-280
         || mean_f.abs() < 1e-280
         || mean_h.abs() < 1e-280
+        || ratio.abs() < 1e-280
+        || integral.abs() < 1e-280
     {
         return;
     }
