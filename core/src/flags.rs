@@ -30,7 +30,9 @@ flags! {
     /// No draw: no value (NaN).
     EMPTY = 0;
     /// Every f so far is 0, the black pixel: the value is 0 and its error unknown, since nothing has
-    /// been seen of the integrand. *Remedy:* more draws, or a proposal that finds it.
+    /// been seen of the integrand. So it is where moments cannot tell f from 0: its mean is 0, and its
+    /// squares vanished, or are not kept and the auxiliaries are 0 too. *Remedy:* more draws, or a
+    /// proposal that finds it.
     NO_SUPPORT = 1;
     /// The denominator is exactly 0: the plain mean was taken. *Remedy:* a defensive auxiliary.
     DENOM_ZERO = 2;

@@ -49,6 +49,40 @@ fn a3_the_black_pixel() {
     assert_eq!((value.value, value.flags(0)), (0.0, Flags::NO_SUPPORT));
 }
 
+/// Found by fuzzing: the mean of f is below the range, or f cancels where its squares are, and h is 0.
+#[test]
+fn a3_f_that_cannot_be_told_from_black() {
+    let after_nine = |f: [f64; 2], h: f64| -> Vec<_> { [0.0; 9].into_iter().chain(f).map(|f| (f, h)).collect() };
+    for draws in
+        [after_nine([0.0, 1e-323], 0.0), after_nine([1e-200, -1e-200], 0.0), after_nine([1e-200, -1e-200], 1.0)]
+    {
+        let case = ratio(&draws, 1.0);
+        assert_eq!((case.value, case.flags & Flags::NO_SUPPORT), (0.0, Flags::NO_SUPPORT), "{case:?}");
+        assert!(case.std_error.is_nan() && !case.flags.fell_back(), "{case:?}");
+    }
+    // It can be where squares remain, or are known to have vanished.
+    for told in [after_nine([1e-100, -1e-100], 0.0), after_nine([1e-200, 0.0], 0.0)[7..].to_vec()] {
+        let told = ratio(&told, 1.0);
+        assert!(told.flags.contains(Flags::DENOM_ZERO), "{told:?}");
+        assert!(!told.flags.contains(Flags::NO_SUPPORT), "{told:?}");
+    }
+    // Without squares only auxiliaries tell.
+    let sums = |h: f64| {
+        let sums = ratiocv_tests::samples::filled(Sums::<f64>::default(), [(1.0, h), (-1.0, h)]);
+        RatioOfMeans.estimate(&sums, &Integrals::ONE).unwrap()
+    };
+    assert_eq!((sums(0.0).value, sums(0.0).flags(0)), (0.0, Flags::NO_SUPPORT));
+    assert_eq!((sums(1.0).value, sums(1.0).flags(0)), (0.0, Flags::NONE));
+}
+
+/// Squares that vanished are unknown, unless the deviations in a block cancel to the last bit.
+#[test]
+fn a3_deviations_that_vanish_and_cancel_count_as_none() {
+    let squares = |last: f64| crate::cases::squares([1e-200, 1e-200, 1e-200, 1e-200, 1e-200, 2e-200, last]);
+    assert!(squares(3e-200).is_nan());
+    assert_eq!(squares(0.0), 0.0);
+}
+
 #[test]
 fn a5_a6_a7_every_order_of_operations_fails_one_of_these() {
     let least = (f32::from_bits(1), f64::from_bits(1));

@@ -33,7 +33,8 @@ use core::array;
 /// After 1 draw the means are that draw, to the bit, and the second moments are 0 (no estimator
 /// makes an error bar of them). NaN or an infinity in a channel makes that channel's moments NaN.
 /// Squares beyond the range of the lanes' scalar leave the means right and the second moments
-/// unknown, which estimators report as OVERFLOW or UNDERFLOW.
+/// unknown, which estimators report as OVERFLOW or UNDERFLOW. Only if the deviations from a block's first
+/// draw have squares that vanish and a mean that is 0 do they count as 0.
 ///
 /// ```
 /// use ratiocv_core::{moments::{Accumulate, Comoments}, Draw, Estimator, Integrals, Tin};
