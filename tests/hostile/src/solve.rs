@@ -7,7 +7,8 @@ use ratiocv_core::moments::{Accumulate, Comoments, HasComoments, Moments};
 use ratiocv_core::{Dependent, Difference, Draw, Estimator, Fit, Flags, Integrals, Regression};
 
 /// The least-squares coefficients of up to three auxiliaries: those of Cramer's rule in rational arithmetic where the
-/// auxiliaries are independent, as far as the condition allows; where they are not, one of the solutions.
+/// auxiliaries are independent, as far as the condition allows; where they are not, one of the solutions, and RANK as
+/// far as the digits of the moments go.
 pub fn solve(bytes: &[u8]) {
     let mut bytes = Bytes::new(bytes);
     match bytes.byte() % 3 {
@@ -57,30 +58,43 @@ fn of<const K: usize, const N: usize>(bytes: &mut Bytes<'_>) {
     }
     // What rounding of the moments may do to a normal equation, relative to n·range².
     let rounding = 3000.0 * (n + 8.0) * f64::EPSILON;
-    if whole.is_zero() || (0..K).any(constant) {
-        let varying: Vec<usize> = (0..K).filter(|k| !constant(*k)).collect();
-        let rows = |all: &[usize]| -> Vec<Vec<Exact>> {
-            all.iter().map(|i| all.iter().map(|j| matrix[*i][*j].clone()).collect()).collect()
+    let varying: Vec<usize> = (0..K).filter(|k| !constant(*k)).collect();
+    let block: Vec<Vec<Exact>> =
+        varying.iter().map(|i| varying.iter().map(|j| matrix[*i][*j].clone()).collect()).collect();
+    if varying.is_empty() {
+        return;
+    }
+    if determinant(&block).is_zero() {
+        let spread = moments.closed().channel(0).comoments();
+        let size = |x: &Exact| libm::sqrt(x.over(&entries[0].count));
+        let sizes: [f64; K] = core::array::from_fn(|k| size(&matrix[k][k]));
+        let size_f = size(&entries[0].products(&entries[0]));
+        // By how much the moments that are solved are off, in units of their sizes.
+        let off = |ours: f64, right: &Exact, sizes: f64| {
+            (&(&Exact::new(ours) * &entries[0].count) - right).abs().over(&entries[0].count) / sizes
         };
-        // Of the many solutions it is one: the normal equations hold, to six digits, since rounding may leave a share of
-        // an auxiliary that has none.
-        let size = entries[0].range + steepest + (0..K).map(|j| beta[j].abs() * entries[j + 1].range).sum::<f64>();
-        // Where scales are far apart the shares of dependent auxiliaries lose digits.
-        let ranges = || varying.iter().map(|k| entries[k + 1].range);
-        let alike = ranges().fold(0.0, f64::max) <= 100.0 * ranges().fold(f64::INFINITY, f64::min);
-        // Nor may two be nearly dependent, and not quite.
-        let clear = |i: &usize, j: &usize| {
-            let share = determinant(&rows(&[*i, *j])).over(&(&matrix[*i][*i] * &matrix[*j][*j]));
-            i == j || share == 0.0 || share > 1e-6
-        };
-        let clear = varying.iter().all(|i| varying.iter().all(|j| clear(i, j)));
-        for i in (0..K).filter(|_| alike && clear) {
-            let ours = Exact::sum((0..K).map(|j| &matrix[i][j] * &Exact::new(beta[j])));
-            let off = (&ours - &right[i]).abs().over(&entries[0].count);
-            let allowed = 1e-6 * n * entries[i + 1].range * size;
-            assert!(off <= allowed, "equation {i} of {beta:?} is off by {off:e}, allowed {allowed:e}");
+        let pairs = || varying.iter().flat_map(|i| varying.iter().map(|j| (*i, *j)));
+        let eta =
+            pairs().map(|(i, j)| off(spread.hh[i][j], &matrix[i][j], sizes[i] * sizes[j])).fold(0.0_f64, f64::max);
+        let eta_f = varying.iter().map(|k| off(spread.fh(*k), &right[*k], sizes[*k] * size_f)).fold(0.0, f64::max);
+        let told = is_told(varying.len(), eta) || has_copies(&points, &varying);
+        assert!(!told || flags.contains(Flags::RANK), "dependent, moments off by {eta:e}, and no RANK: {beta:?}");
+        // Of the many solutions it is one: the normal equations hold. Of an unknown that was dropped with a share of
+        // at most the tolerance, Σ(x − x̂)(f − f̂) is at most √share·‖x‖·‖f‖ (Cauchy and Schwarz); the others' are
+        // off by what the moments are, and by three roundings in each of three steps on numbers that pivoting keeps
+        // below (1 + 2)².
+        let reached = size_f + varying.iter().map(|k| beta[*k].abs() * sizes[*k]).sum::<f64>();
+        for i in &varying {
+            let ours = Exact::sum((0..K).map(|j| &matrix[*i][j] * &Exact::new(beta[j])));
+            let off = (&ours - &right[*i]).abs().over(&entries[0].count);
+            let noise = eta.max(eta_f) + 81.0 * f64::EPSILON / 2.0;
+            let allowed = sizes[*i] * (libm::sqrt(TOLERANCE + 4.0 * eta) * size_f + noise * reached);
+            assert!(
+                off <= allowed,
+                "equation {i} of {beta:?} {flags} is off by {off:e}, allowed {allowed:e}; sizes {sizes:?}, {size_f}; η {eta:e} {eta_f:e}"
+            );
         }
-    } else if least > 1e-6 {
+    } else if varying.len() == K && least > 1e-6 {
         assert!(!flags.contains(Flags::RANK), "independent auxiliaries, share {least:e}, and RANK: {beta:?}");
         for k in 0..K {
             // Cramer's rule.
@@ -97,4 +111,39 @@ fn of<const K: usize, const N: usize>(bytes: &mut Bytes<'_>) {
             assert!(off <= allowed, "coefficient {k} is {} and should be {oracle}, allowed {allowed:e}", beta[k]);
         }
     }
+}
+
+/// The share of its own variance that an auxiliary must have left, in units of which nothing else is known: what
+/// `Regression` asks of the moments of `f64` draws.
+const TOLERANCE: f64 = 64.0 * f64::EPSILON;
+
+/// Whether `count` exactly dependent auxiliaries must be found to be, from second moments that are off by at most `eta`
+/// in units of their sizes.
+///
+/// After the pivots before the last two, what is left of these is off by φ ≤ 4η + 3u, u the unit roundoff: of two
+/// columns with coefficients of at most 1 each, (1 + 1)²η, and three roundings. With all there are two that is 4η for
+/// the last alone. Of three, the second pivot is above the tolerance τ, or both are dropped, and is the larger one, so
+/// that the coefficient of the last in it is exactly at most c, c² = (τ + φ)/(τ − φ), and the last share, the least of
+/// all combinations, is at most that one's, (1 + c)²φ, and rounding.
+fn is_told(count: usize, eta: f64) -> bool {
+    let unit = f64::EPSILON / 2.0;
+    let left = 4.0 * eta + 3.0 * unit;
+    match count {
+        1 => false,
+        2 => left + unit <= TOLERANCE,
+        _ if left >= TOLERANCE => false,
+        _ => {
+            let c = libm::sqrt((TOLERANCE + left) / (TOLERANCE - left));
+            (1.0 + c) * (1.0 + c) * left + 4.0 * unit <= TOLERANCE
+        }
+    }
+}
+
+/// Whether one auxiliary is another one, or its negative: their moments are the same to the bit.
+fn has_copies<const N: usize>(points: &[[f64; N]], varying: &[usize]) -> bool {
+    let copies = |i: usize, j: usize| {
+        let is = |sign: f64| points.iter().all(|point| point[i + 1] == sign * point[j + 1]);
+        is(1.0) || is(-1.0)
+    };
+    varying.iter().any(|i| varying.iter().any(|j| i < j && copies(*i, *j)))
 }
