@@ -1,8 +1,13 @@
 //! B, E: dynamic range, and the rows of the estimators' own formulas.
 
-use crate::cases::{ratio, ratio32, run};
-use ratiocv_core::moments::{Accumulate, Comoments, HasComoments, Moments, Widened};
-use ratiocv_core::{Beale, Draw, Estimator, Flags, HartleyRoss, Integrals, RatioOfMeans, Tin};
+use crate::cases::{ratio, ratio32, run, run_on};
+use ratiocv_core::moments::{
+    Accumulate, Blocked, Comoments, ComomentsBlock, HasComoments, Joined, Moments, RatioOf, UnivariateBlock, Widened,
+};
+use ratiocv_core::{
+    Beale, CrossFitted, Draw, Estimator, Flags, HartleyRoss, Integrals, MeanOfRatios, RatioOfMeans, RegressionRatio,
+    Tin,
+};
 use ratiocv_tests::assert_close;
 
 /// A case in f32 blocks must be right or flagged; in f64 blocks it must be right.
@@ -114,4 +119,34 @@ fn e5_beale_and_tin_do_not_square_small_auxiliaries() {
     assert!(flagged.value == 1.5 && flagged.flags.contains(Flags::UNDERFLOW) && flagged.flags.fell_back());
     let tiny = run(Beale, &[(1.0_f32, 1e-25_f32), (2.0, 3e-25), (4.0, 2e-25)], f64::from(1e-25_f32));
     assert_close(tiny.value, run(Beale, &[(1.0, 1.0), (2.0, 3.0), (4.0, 2.0)], 1.0).value, 1e-6, "f32");
+}
+
+/// Found by fuzzing: with c = ȳ/x̄ of 1e160 the square of c·h is infinite, and no flag said why the error was unknown.
+#[test]
+fn an_error_whose_square_leaves_the_range_is_unknown_and_flagged() {
+    let far = ratio(&[(1e150, 1.0), (1e150, -1.0 + 1e-10)], 1.0);
+    assert!(far.value > 1e160 && far.std_error.is_nan(), "{far:?}");
+    assert!(far.flags.contains(Flags::OVERFLOW), "{far:?}");
+}
+
+/// Found by fuzzing: errors of two folds were added up as squares, which left the range.
+#[test]
+fn errors_of_folds_are_as_large_as_any() {
+    let draws: Vec<_> = (0..40).map(|i| (f64::from(i * i % 7), 1.0 + f64::from(i % 5))).collect();
+    let error = |integral: f64| run(CrossFitted(RegressionRatio::default()), &draws, integral).std_error;
+    assert!(error(1e120) > 1e118);
+    assert_close(error(1e200) / error(1e120), 1e80, 1e68, "an error of 1e199 beside one of 1e119");
+}
+
+/// Found by fuzzing: where squares of an auxiliary are infinite the spread of a black channel is unknown, and the
+/// ratios, all 0, had an error of 0.
+#[test]
+fn a_black_channel_has_no_error_bar_in_a_mean_of_ratios() {
+    type Both<V> = Blocked<V, Joined<ComomentsBlock<V>, UnivariateBlock<RatioOf<V>, 1>>>;
+    for h in [1e200, 1e300, f64::MAX / 4.0, 1e-300] {
+        let draws = [(0.0, h), (0.0, -h), (0.0, 2.0)].map(|(f, h)| Draw::new(f, h));
+        let black = run_on(&MeanOfRatios, |_| Both::default(), &draws, [1.0]);
+        assert!(black.value == 0.0 && black.std_error.is_nan(), "{black:?}");
+        assert!(black.flags.contains(Flags::NO_SUPPORT), "{black:?}");
+    }
 }

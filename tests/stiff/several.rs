@@ -85,6 +85,35 @@ fn e10_nearly_identical_auxiliaries() {
     }
 }
 
+/// Found by fuzzing: rounding left in a column that was eliminated, over a second pivot of 1e-13 of the variance,
+/// changed the first coefficient by 0.2 percent of 1e6, and the residuals were a thousand times f.
+#[test]
+fn e10_an_outlier_that_makes_auxiliaries_nearly_dependent() {
+    let draws = [
+        (0.0, -1.0, -1.0),
+        (-1.0, -1.0, -1.0),
+        (-1.0, -1.0, -1.0),
+        (-1.0, -1.0, -0.7),
+        (1e7, 1e7, 1e7),
+        (10_000_014.0, -0.7, 0.125),
+        (0.125, -0.7, -0.7),
+        (0.125, 2.421875, 0.0),
+    ];
+    let integrals = [1.25e6, 1.25e6];
+    let two = draws.map(|(f, a, b)| Draw { f, h: [a, b] });
+    let three = draws.map(|(f, a, b)| Draw { f, h: [a, b, b] });
+    let plain = run(Plain, &draws.map(|(f, a, _)| (f, a)), 1.0).std_error;
+    for dependent in [Dependent::MinimumNorm, Dependent::Drop] {
+        let difference = Difference { regression: Regression { dependent, shrink: false } };
+        let (two, three) = (several(difference, &two, integrals), several(difference, &three, [1.25e6; 3]));
+        // √(7/5) for the two degrees of freedom that the fit takes, and what it reaches out.
+        for fitted in [two, three] {
+            assert!(fitted.std_error <= 1.5 * plain, "{fitted:?}, plain {plain:e}");
+        }
+        assert!(three.flags.contains(Flags::RANK), "{three:?}");
+    }
+}
+
 #[test]
 fn e11_weights_that_leave_no_auxiliary() {
     let draws = noisy(11, 20);
@@ -141,4 +170,14 @@ fn e13_a_technique_that_is_never_hit() {
         assert_eq!(unhit.std_error[channel].to_bits(), innocent.std_error[channel].to_bits());
     }
     assert!(unhit.value[1] < innocent.value[1] && unhit.std_error[1] > 0.0 && unhit.flags(1) == Flags::NONE);
+}
+
+/// Found by fuzzing: each of two terms of the error is infinite, and their sum was unknown without a flag.
+#[test]
+fn an_error_of_two_infinite_terms_is_unknown_and_flagged() {
+    let draws: Vec<_> = noisy(14, 20).into_iter().map(|(f, h)| Draw { f, h: [h, -h] }).collect();
+    let fixed = Difference::default().fixed([1e160, 3e160]);
+    let estimate = several(fixed, &draws, [1.0, -1.0]);
+    assert!(estimate.value.is_finite() && estimate.std_error.is_nan(), "{estimate:?}");
+    assert!(estimate.flags.contains(Flags::OVERFLOW), "{estimate:?}");
 }
