@@ -13,10 +13,10 @@ use crate::moments::save::Save;
 /// # Laws
 /// The same calls give the same bits, on every platform and for any lane width. The same draws
 /// split into other calls (`add` one by one, `add_batch` in pieces) give the same moments up to
-/// rounding: each mean to 80 units of the last place of the lane's precision, times the range of the
-/// numbers (a block is summed about its first draw, which may be the outlier), and 4 of `f64`'s, times
-/// the largest. A channel that receives NaN or an infinity leaves every other channel's bits
-/// alone. These are the functions of `conformance`.
+/// rounding: each mean to 41 units of the last place of the lane's precision, times the range of the
+/// numbers (a block is summed about its first draw, which may be the outlier), and of `f64`'s two for
+/// each block, times the range, and one, times the largest. A channel that receives NaN or an infinity
+/// leaves every other channel's bits alone. These are the functions of `conformance`.
 ///
 /// # Implementing
 /// Implement [`Takes`](crate::moments::Takes) and use [`Blocked`](crate::moments::Blocked). Otherwise, leave

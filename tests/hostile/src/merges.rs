@@ -65,7 +65,7 @@ fn of<S: Scalar>(bytes: &mut Bytes<'_>, reach: Reach) {
         f.mean_is::<S>(means.f, "mean of f");
         h.mean_is::<S>(means.h[0], "mean of h");
         if means.f.is_finite() && means.h[0].is_finite() {
-            h.products_are::<S>(&h, 0.0, channel.comoments().hh[0][0], "squares of h");
+            h.products_are::<S>(&h, channel.comoments().hh[0][0], "squares of h");
         }
     }
     if reach == Reach::Moderate && in_order {

@@ -30,7 +30,6 @@ fn of<const K: usize, const N: usize>(bytes: &mut Bytes<'_>) {
         let reached: f64 = (0..K).map(|k| slope[k].abs() * entries[k + 1].range).sum();
         steepest = steepest.max(reached);
     }
-    let n = draws.len() as f64;
     let matrix: Vec<Vec<Exact>> =
         (0..K).map(|i| (0..K).map(|j| entries[i + 1].products(&entries[j + 1])).collect()).collect();
     let right: Vec<Exact> = (0..K).map(|i| entries[0].products(&entries[i + 1])).collect();
@@ -52,42 +51,46 @@ fn of<const K: usize, const N: usize>(bytes: &mut Bytes<'_>) {
         assert!(unsolved && beta == [0.0; K], "{beta:?} {flags} of one draw");
         return;
     }
+    let spread = moments.closed().channel(0).comoments();
+    let about = entries[0].clone().about(steepest);
+    for i in 0..K {
+        for j in 0..=i {
+            entries[i + 1].products_are::<f64>(&entries[j + 1], spread.hh[i][j], "products of two auxiliaries");
+        }
+        entries[i + 1].products_are::<f64>(&about, spread.fh(i), "products with f");
+    }
     let constant = |k: usize| matrix[k][k].is_zero();
     for k in (0..K).filter(|k| constant(*k)) {
         assert_eq!(beta[k], 0.0, "the coefficient of a constant");
     }
-    // What rounding of the moments may do to a normal equation, relative to n·range².
-    let rounding = 3000.0 * (n + 8.0) * f64::EPSILON;
     let varying: Vec<usize> = (0..K).filter(|k| !constant(*k)).collect();
     let block: Vec<Vec<Exact>> =
         varying.iter().map(|i| varying.iter().map(|j| matrix[*i][*j].clone()).collect()).collect();
     if varying.is_empty() {
         return;
     }
+    let size = |x: &Exact| libm::sqrt(x.over(&entries[0].count));
+    let sizes: [f64; K] = core::array::from_fn(|k| size(&matrix[k][k]));
+    let size_f = size(&entries[0].products(&entries[0]));
+    // By how much the moments that are solved are off, in units of their sizes.
+    let off = |ours: f64, right: &Exact, sizes: f64| {
+        (&(&Exact::new(ours) * &entries[0].count) - right).abs().over(&entries[0].count) / sizes
+    };
+    let pairs = || varying.iter().flat_map(|i| varying.iter().map(|j| (*i, *j)));
+    let eta = pairs().map(|(i, j)| off(spread.hh[i][j], &matrix[i][j], sizes[i] * sizes[j])).fold(0.0_f64, f64::max);
+    let eta_f = varying.iter().map(|k| off(spread.fh(*k), &right[*k], sizes[*k] * size_f)).fold(0.0, f64::max);
+    let reached = size_f + varying.iter().map(|k| beta[*k].abs() * sizes[*k]).sum::<f64>();
+    // Three roundings in each of three steps on numbers that pivoting keeps below (1 + 2)².
+    let noise = eta.max(eta_f) + 81.0 * f64::EPSILON / 2.0;
     if determinant(&block).is_zero() {
-        let spread = moments.closed().channel(0).comoments();
-        let size = |x: &Exact| libm::sqrt(x.over(&entries[0].count));
-        let sizes: [f64; K] = core::array::from_fn(|k| size(&matrix[k][k]));
-        let size_f = size(&entries[0].products(&entries[0]));
-        // By how much the moments that are solved are off, in units of their sizes.
-        let off = |ours: f64, right: &Exact, sizes: f64| {
-            (&(&Exact::new(ours) * &entries[0].count) - right).abs().over(&entries[0].count) / sizes
-        };
-        let pairs = || varying.iter().flat_map(|i| varying.iter().map(|j| (*i, *j)));
-        let eta =
-            pairs().map(|(i, j)| off(spread.hh[i][j], &matrix[i][j], sizes[i] * sizes[j])).fold(0.0_f64, f64::max);
-        let eta_f = varying.iter().map(|k| off(spread.fh(*k), &right[*k], sizes[*k] * size_f)).fold(0.0, f64::max);
         let told = is_told(varying.len(), eta) || has_copies(&points, &varying);
         assert!(!told || flags.contains(Flags::RANK), "dependent, moments off by {eta:e}, and no RANK: {beta:?}");
         // Of the many solutions it is one: the normal equations hold. Of an unknown that was dropped with a share of
         // at most the tolerance, Σ(x − x̂)(f − f̂) is at most √share·‖x‖·‖f‖ (Cauchy and Schwarz); the others' are
-        // off by what the moments are, and by three roundings in each of three steps on numbers that pivoting keeps
-        // below (1 + 2)².
-        let reached = size_f + varying.iter().map(|k| beta[*k].abs() * sizes[*k]).sum::<f64>();
+        // off by what the moments are, and by rounding.
         for i in &varying {
             let ours = Exact::sum((0..K).map(|j| &matrix[*i][j] * &Exact::new(beta[j])));
             let off = (&ours - &right[*i]).abs().over(&entries[0].count);
-            let noise = eta.max(eta_f) + 81.0 * f64::EPSILON / 2.0;
             let allowed = sizes[*i] * (libm::sqrt(TOLERANCE + 4.0 * eta) * size_f + noise * reached);
             assert!(
                 off <= allowed,
@@ -102,11 +105,10 @@ fn of<const K: usize, const N: usize>(bytes: &mut Bytes<'_>) {
                 .map(|i| (0..K).map(|j| if j == k { right[i].clone() } else { matrix[i][j].clone() }).collect())
                 .collect();
             let oracle = determinant(&replaced).over(&whole);
-            let range = |i: usize| entries[i].range;
-            let size = range(0) + steepest + (0..K).map(|j| beta[j].abs() * range(j + 1)).sum::<f64>();
-            // Squares against the square of the range: at least 1/(2n).
-            let spread = matrix[k][k].over(&(&entries[0].count * &Exact::new(range(k + 1) * range(k + 1) * n)));
-            let allowed = rounding / (least * spread * spread.min(1.0)) * size / range(k + 1) / n;
+            // Each equation is off by noise·reached, and coefficient k by the inverse's row k times that. With every size
+            // 1 the diagonal of the inverse is 1/share, and no entry is above the mean of its two on the diagonal
+            // (geometric: Cauchy and Schwarz).
+            let allowed = K as f64 * noise * reached / libm::sqrt(share(k) * least) / sizes[k];
             let off = (beta[k] - oracle).abs();
             assert!(off <= allowed, "coefficient {k} is {} and should be {oracle}, allowed {allowed:e}", beta[k]);
         }

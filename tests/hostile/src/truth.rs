@@ -4,15 +4,27 @@ use crate::exact::Exact;
 use num_traits::float::FloatCore;
 use ratiocv_core::{Lanes, Scalar};
 
-/// Rounding of sums in `S` over blocks, in units of its ε, for means relative to the range of the numbers: a block's
-/// 64 terms, or a batch's 8 + 16 + 3, each below the range, and what the merges add.
-const OF_MEANS: f64 = 80.0;
+// Rounding of sums in `S` over blocks, to first order, in its ε = 2u. A term is a difference from the block's first draw,
+// off by u of the range of the numbers at most, and is in at most 80 sums: those of a run of 64, and of 16 runs.
 
-/// The same for sums of squares and products, relative to the number of draws times the ranges.
-const OF_SQUARES: f64 = 400.0;
+/// Of a mean, relative to the range: u for the difference and 80 u for the sums.
+const OF_MEANS: f64 = 41.0;
+
+/// Of a sum of squares or products, relative to the number of draws times the ranges, residuals on K ≤ 3 slopes: K + 2 u
+/// for each of the two factors, u for the product and 80 u for the sums; 162 u for the means that are taken off, twice
+/// as far off as a mean, and as much for those of the blocks about their mean. 415 u.
+const OF_SQUARES: f64 = 208.0;
+
+/// Of a mean in a merge, in the ε of `f64`: 2 u for differences of anchors and means of half the draws, u for the product
+/// and u for the sum.
+const OF_MEANS_MERGED: f64 = 2.0;
+
+/// Of a sum of squares in a merge: some 30 u for two slopes that turn, three sums and e², and 16·2 ε for means that were
+/// off and each of whose draws are in the smaller part of 8 merges at most.
+const OF_SQUARES_MERGED: f64 = 48.0;
 
 /// Numbers with their exact sum.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Truth {
     pub(crate) count: Exact,
     pub(crate) sum: Exact,
@@ -38,9 +50,10 @@ impl Truth {
         }
     }
 
-    /// The same numbers, with a range that is larger by `more`.
-    pub(crate) fn widened(self, more: f64) -> Self {
-        Self { range: self.range + more, ..self }
+    /// The same numbers, of which residuals were summed up: about slopes along which auxiliaries range over `reached`,
+    /// put back along them afterwards, where it counts twice.
+    pub(crate) fn about(self, reached: f64) -> Self {
+        Self { range: self.range + 2.0 * reached, ..self }
     }
 
     /// N·Σ(x − x̄)(y − ȳ).
@@ -52,9 +65,15 @@ impl Truth {
     /// How far a mean in `S` may be from the true one, absolutely.
     pub(crate) fn mean_tolerance<S: Scalar>(&self) -> f64 {
         let n = self.numbers.len() as f64;
-        OF_MEANS * epsilon::<S>() * self.range
-            + f64::EPSILON * (4.0 * self.most + (n + 8.0) * self.range)
+        (OF_MEANS * epsilon::<S>() + OF_MEANS_MERGED * self.merges() * f64::EPSILON) * self.range
+            + f64::EPSILON * self.most
             + (n + 4.0) * 5e-324
+    }
+
+    /// Merges at most: of eight parts, each of four blocks of one draw, blocks of 64 and a shorter one.
+    fn merges(&self) -> f64 {
+        let n = self.numbers.len();
+        (n - 1).min(8 * 5 + n / 64) as f64
     }
 
     /// Panics unless `ours` is the mean, but for rounding in `S`; not finite only if numbers are apart by so much that
@@ -69,13 +88,11 @@ impl Truth {
         assert!(off <= allowed, "{what}: {ours:e} is off by {off:e}, allowed {allowed:e}");
     }
 
-    /// Panics unless `ours` is Σ(x − x̄)(y − ȳ), summed up in `S` from x and from y + `steepest`·x; infinite or NaN
-    /// only where squares leave the range.
-    pub(crate) fn products_are<S: Scalar>(&self, other: &Self, steepest: f64, ours: f64, what: &str) {
-        let range = |truth: &Self| truth.range + steepest * if core::ptr::eq(truth, self) { 0.0 } else { self.range };
+    /// Panics unless `ours` is Σ(x − x̄)(y − ȳ), summed up in `S`; infinite or NaN only where squares leave the range.
+    pub(crate) fn products_are<S: Scalar>(&self, other: &Self, ours: f64, what: &str) {
         let n = self.numbers.len() as f64;
-        let size = range(self) * range(other);
-        let largest = range(self).max(range(other));
+        let size = self.range * other.range;
+        let largest = self.range.max(other.range);
         if !ours.is_finite() {
             let over = largest > libm::sqrt(greatest::<S>()) / 4096.0;
             assert!(
@@ -89,9 +106,9 @@ impl Truth {
         }
         let right = self.products(other);
         let off = (&(&Exact::new(ours) * &self.count) - &right).abs().over(&self.count);
-        let allowed = (OF_SQUARES * epsilon::<S>() + 8.0 * (n + 8.0) * f64::EPSILON) * n * size
+        let allowed = (OF_SQUARES * epsilon::<S>() + OF_SQUARES_MERGED * self.merges() * f64::EPSILON) * n * size
             + n * Lanes::widen(<S as FloatCore>::min_positive_value())
-            + n * n * 5e-324 * (range(self) + range(other)); // means that are denormal
+            + n * n * 5e-324 * (self.range + other.range); // means that are denormal
         assert!(off <= allowed, "{what}: {ours:e} is off by {off:e}, allowed {allowed:e}");
     }
 
