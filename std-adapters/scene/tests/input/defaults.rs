@@ -26,6 +26,16 @@ fn names_are_replaced_in_any_attribute_after_them() {
     assert_eq!(sphere("<default name='kind' value='sphere'/><shape type='$kind'/>"), (Vec3::ZERO, 1.0));
 }
 
+/// A name ends where a letter does, however many bytes that has.
+#[test]
+fn names_may_be_followed_by_any_letters() {
+    let surface = "<bsdf type='diffuse' id='$aéß'><rgb name='reflectance' value='0.125'/></bsdf>";
+    let shape = "<shape type='sphere'><ref id='bbéß'/></shape>";
+    let material =
+        read(&scene(&format!("<default name='a' value='bb'/>{surface}{shape}"))).shapes[0].surface.material;
+    assert_eq!(material, Material::Diffuse { reflectance: Vec3::splat(0.125) });
+}
+
 #[test]
 fn references_may_come_before_what_they_refer_to() {
     let surface = "<bsdf type='diffuse' id='a'><rgb name='reflectance' value='0.125'/></bsdf>";
