@@ -31,8 +31,7 @@ fn names_are_replaced_in_any_attribute_after_them() {
 fn names_may_be_followed_by_any_letters() {
     let surface = "<bsdf type='diffuse' id='$aéß'><rgb name='reflectance' value='0.125'/></bsdf>";
     let shape = "<shape type='sphere'><ref id='bbéß'/></shape>";
-    let material =
-        read(&scene(&format!("<default name='a' value='bb'/>{surface}{shape}"))).shapes[0].surface.material;
+    let material = read(&scene(&format!("<default name='a' value='bb'/>{surface}{shape}"))).shapes[0].surface.material;
     assert_eq!(material, Material::Diffuse { reflectance: Vec3::splat(0.125) });
 }
 
