@@ -65,3 +65,12 @@ fn an_error_out_of_range_is_unknown_and_flagged() {
     assert!(ours.value.is_finite() && ours.std_error.is_nan(), "{ours:?}");
     assert!(ours.flags.contains(Flags::OVERFLOW), "{ours:?}");
 }
+
+/// Found by fuzzing: one group's pseudovalue is ∞ − ∞, nine times the whole less eight times all but that group.
+#[test]
+fn pseudovalues_out_of_range_are_flagged() {
+    let draws: Vec<_> = (0..9).map(|i| (if i == 3 { 0.0 } else { 1.0 }, 1.0)).collect();
+    let ours = ladder::run(Jackknife, &draws, 2.3e307);
+    assert!(ours.value.is_finite() && ours.std_error.is_nan(), "{ours:?}");
+    assert!(ours.flags.contains(Flags::OVERFLOW), "{ours:?}");
+}

@@ -92,5 +92,6 @@ pub(super) fn jackknifed(
         let off = pseudovalue - value;
         variance += off * off / planted!("jackknife_variance": share - 1.0, share) / groups;
     }
-    Some((value, variance))
+    // ∞ − ∞ of pseudovalues is as far out of the range as ∞.
+    Some((value, if variance.is_nan() && whole.is_finite() { f64::INFINITY } else { variance }))
 }
