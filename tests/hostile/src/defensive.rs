@@ -91,7 +91,7 @@ fn is_right<S: Scalar>(ours: ChannelEstimate, points: &[[f64; 2]], weight: f64, 
     let denominator = weight * integral + (1.0 - weight) * mean_h;
     let size = (weight * integral).abs() + mean_h.abs();
     let lost = (h.mean_tolerance::<S>() + 8.0 * f64::EPSILON * size) / denominator.abs();
-    if integral == 0.0 || !(lost < 0.1) {
+    if integral == 0.0 || lost.is_nan() || lost >= 0.1 {
         return;
     }
     let right = mean_f / denominator * integral;

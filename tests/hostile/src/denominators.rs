@@ -139,12 +139,13 @@ fn is_right<S: Scalar>(ours: ChannelEstimate, mean_h: f64, points: &[[f64; 2]], 
     }
     let (mean_f, mean_h) = (f.sum.over(&f.count), h.sum.over(&h.count));
     let lost = h.mean_tolerance::<S>() / mean_h.abs();
-    if !(lost < 0.1) {
+    if lost.is_nan() || lost >= 0.1 {
         return;
     }
     let ratio = f.sum.over(&h.sum);
     let right = ratio * libm::ldexp(integral, -64);
-    if !(right.abs() < libm::ldexp(f64::MAX, -64))
+    if right.is_nan()
+        || right.abs() >= libm::ldexp(f64::MAX, -64)
         || right.abs() < 1e-280
         || mean_f.abs() < 1e-280
         || mean_h.abs() < 1e-280
