@@ -1,6 +1,6 @@
 //! `<default>` and `$name`, ids and references.
 
-use super::{read, scene};
+use super::{error, read, scene};
 use glam::Vec3;
 use ratiocv_scene::{Geometry, Material};
 
@@ -29,10 +29,9 @@ fn names_are_replaced_in_any_attribute_after_them() {
 /// A name ends where a letter does, however many bytes that has.
 #[test]
 fn names_may_be_followed_by_any_letters() {
-    let surface = "<bsdf type='diffuse' id='$aéß'><rgb name='reflectance' value='0.125'/></bsdf>";
-    let shape = "<shape type='sphere'><ref id='bbéß'/></shape>";
-    let material = read(&scene(&format!("<default name='a' value='bb'/>{surface}{shape}"))).shapes[0].surface.material;
-    assert_eq!(material, Material::Diffuse { reflectance: Vec3::splat(0.125) });
+    let sphere = "<shape type='sphere'><float name='radius' value='$aéß'/></shape>";
+    let error = error(&scene(&format!("<default name='a' value='0.25'/>{sphere}"))).to_string();
+    assert!(error.contains("0.25éß"), "{error}");
 }
 
 #[test]
