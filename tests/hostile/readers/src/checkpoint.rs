@@ -1,10 +1,10 @@
 //! Checkpoints of any bytes.
 
+use core::cell::RefCell;
 use core::sync::atomic::AtomicBool;
 use core::time::Duration;
 use ratiocv_core::{Plain, Problem, Uniform};
 use ratiocv_threads::{CHUNK, Error, Outcome, Run};
-use std::cell::RefCell;
 use std::fs;
 use std::path::{Path, PathBuf};
 
