@@ -43,8 +43,9 @@ impl<S: HasMeans + HasGroups> Estimator<S> for Jackknife {
     }
     fn estimate_channel(&self, sample: &Sample<'_, S>, &[integral]: &[f64; 1]) -> ChannelEstimate {
         let group = |g: usize| sample.moments.group(sample.count, g);
-        // Group means tell as well as a spread would that every f was 0.
-        let unseen = sample.count > 0 && (0..sample.moments.groups()).all(|g| group(g).f == 0.0);
+        // Group means tell as well as a spread would that every f was 0; where they cancel, rounding may leave a mean.
+        let nothing = sample.count > 0 && sample.moments.means(sample.count).f == 0.0;
+        let unseen = nothing && (0..sample.moments.groups()).all(|g| group(g).f == 0.0);
         let remarks = Remarks::with_auxiliary(sample, integral).and(Flags::when(unseen, Flags::NO_SUPPORT));
         let ratio = remarks.ratio_of_means(integral);
         if sample.count < 2 || ratio.flags.fell_back() {

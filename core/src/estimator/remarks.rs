@@ -174,7 +174,8 @@ impl<const K: usize> Remarks<K> {
                 let below = squares > 0.0 && squares < floor;
                 flags |= Flags::when(below, Flags::ROUNDING);
                 // ∞ − ∞: a coefficient whose square is beyond the range.
-                flags |= Flags::when(squares.is_nan() && !flags.contains(Flags::UNDERFLOW), Flags::OVERFLOW);
+                let unexplained = !flags.contains(Flags::UNDERFLOW) && !flags.contains(Flags::NONFINITE);
+                flags |= Flags::when(squares.is_nan() && unexplained, Flags::OVERFLOW);
                 let n = self.count as f64;
                 let variance = if below { floor } else { squares } / planted!("std_error_divisor": n - 1.0, n);
                 libm::sqrt(variance / n)
@@ -212,10 +213,11 @@ fn bad(integral: f64) -> Flags {
     Flags::when(integral == 0.0 || !integral.is_finite(), Flags::BAD_INTEGRAL)
 }
 
-/// `estimate` with another standard error. One beyond the range is unknown, and OVERFLOW says why.
+/// `estimate` with another standard error. One beyond the range is unknown, and OVERFLOW says why, unless NONFINITE does.
 pub(super) fn with_error(estimate: ChannelEstimate, error: impl FnOnce(f64) -> f64) -> ChannelEstimate {
+    let why = Flags::when(!estimate.flags.contains(Flags::NONFINITE), Flags::OVERFLOW);
     match error(estimate.std_error) {
-        f64::INFINITY => ChannelEstimate { std_error: f64::NAN, flags: estimate.flags | Flags::OVERFLOW, ..estimate },
+        f64::INFINITY => ChannelEstimate { std_error: f64::NAN, flags: estimate.flags | why, ..estimate },
         std_error => ChannelEstimate { std_error, ..estimate },
     }
 }

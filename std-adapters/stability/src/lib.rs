@@ -5,10 +5,6 @@
 //! tree, in the middle of innocent channels whose bits must not change. [`Table`] is the rows as text, JSON or a
 //! page.
 //!
-//! Of the list, D13 (moments of other channels do not merge: a type error), E13 and E17 (techniques that are never
-//! hit, draws that are rejected), F4 (a pdf of 0) and H3 (the rule of H2) have no row here; E13 and F4 have tests of
-//! their own, in `tests/stiff`.
-//!
 //! ```
 //! use ratiocv_stability::{cases, Contender, Table};
 //! let table = Table::of(cases::named("A10"), Contender::Ours);

@@ -8,8 +8,12 @@ use crate::lane_types;
 use crate::method::{Everything, Method, number};
 use crate::noise::noise;
 use crate::probe::{Probe, Probes};
-use ratiocv_core::moments::{Accumulate, Comoments, Slices};
-use ratiocv_core::{ChannelEstimate, Draw, Flags, Lanes, RatioOfMeans, Scalar, Spectrum};
+use rand_core::Rng;
+use ratiocv_core::moments::{Accumulate, Comoments, Slices, Sums};
+use ratiocv_core::{
+    ChannelEstimate, Draw, Estimator, Flags, Integrals, Lanes, Plain, Problem, Proposal, RatioOfMeans, Scalar,
+    Spectrum, unit_interval,
+};
 
 pub(super) fn cases() -> Vec<Case> {
     both(in_each_precision)
@@ -47,6 +51,8 @@ fn in_each_precision(precision: Precision) -> Vec<Case> {
         1.0,
     );
     cases.push(case.exact());
+    let edge = Probes::of::<Edge>(precision);
+    cases.push(Case::new("F4", "pdf = 0 where f = 0: a draw of 0", precision, Ask::Probe(edge), 0.5).exact());
     let empty = Draws::new(100, |_| Draw::new(0.0, 0.0));
     let f6 = one("F6", "0/0 in a lane that is not chosen", Method::MeanOfRatios, empty, 0.0);
     cases.push(f6.exact().must(Flags::NO_SUPPORT));
@@ -63,6 +69,31 @@ fn in_each_precision(precision: Precision) -> Vec<Case> {
     cases.push(probe("F9", "1 to 31 channels and 1 to 200 draws, against one", once, 0.0));
     cases.push(probe("F10", "payloads of NaN, and a checkpoint that goes on", Probes::of::<Payloads>(precision), 0.0));
     cases
+}
+
+/// The mean of two draws: one of value 1, and one at the edge of the support, where pdf and f are 0.
+struct Edge;
+
+impl Probe for Edge {
+    fn on<V: Lanes>() -> ChannelEstimate {
+        struct Ramp;
+        impl Proposal for Ramp {
+            type Point = f64;
+            fn sample<R: Rng + ?Sized>(&self, rng: &mut R) -> f64 {
+                libm::sqrt(unit_interval(rng))
+            }
+            fn pdf(&self, x: &f64) -> f64 {
+                2.0 * x
+            }
+        }
+        let problem = Problem::new(|x: &f64| V::splat(V::Scalar::from_f64(2.0 * x))).proposal(Ramp);
+        let mut moments = Sums::<V, 0>::default();
+        moments.add(problem.draw_at(&0.5));
+        moments.add(problem.draw_at(&0.0));
+        let estimate = Plain.estimate_anyway(&moments, &Integrals::NONE);
+        let same = (1..V::LANES).all(|lane| estimate.channel(lane).value == estimate.channel(0).value);
+        if same { estimate.channel(0) } else { number(f64::NAN, Flags::NONE) }
+    }
 }
 
 /// How many of the maxima of pairs, by comparing and selecting, differ from the scalars'.

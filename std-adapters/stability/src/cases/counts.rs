@@ -5,9 +5,11 @@ use crate::answer::ErrorBar;
 use crate::case::Precision::{Double, Single};
 use crate::case::{Ask, Case, Precision};
 use crate::draws::Draws;
-use crate::method::Method;
+use crate::method::{Method, number};
 use crate::noise::noise;
-use ratiocv_core::{Draw, Flags};
+use crate::probe::Probes;
+use ratiocv_core::moments::{Comoments, Slices};
+use ratiocv_core::{ChannelEstimate, Draw, Error, Flags, Spectrum};
 
 pub(super) fn cases() -> Vec<Case> {
     let mut cases = both(in_each_precision);
@@ -23,7 +25,27 @@ pub(super) fn cases() -> Vec<Case> {
     let uniform = Draws::new(1 << 24, |i| Draw::new(noise(3, i), 1.0));
     let case = merged("D3", "2²⁴ uniform numbers", Single, Method::Variance(1.0), uniform, None, variance_of_uniform());
     cases.push(case.digits(6.0).naive(welford_of_uniform));
+    let refused = Ask::Probe(Probes::once("Slices", other_layouts));
+    cases.push(Case::new("D13", "merges of other numbers of channels", Double, refused, 0.0).exact());
     cases
+}
+
+/// How many merges of moments of other numbers of channels were not refused, or changed something all the same.
+fn other_layouts() -> ChannelEstimate {
+    let mut wrong = 0;
+    for (own, other) in [(3_usize, 4_usize), (4, 3), (1, 9), (8, 16)] {
+        let mut pieces = [[Comoments::<Spectrum<f64, 4>>::default(); 4]; 2];
+        let [first, second] = &mut pieces;
+        let (Ok(mut ours), Ok(mut theirs)) =
+            (Slices::new(&mut first[..own.div_ceil(4)], own), Slices::new(&mut second[..other.div_ceil(4)], other))
+        else {
+            return number(f64::NAN, Flags::NONE);
+        };
+        wrong += u32::from(ours.add(&[1.0; 16][..own], [&[2.0; 16][..own]]).is_err());
+        wrong += u32::from(theirs.add(&[1.0; 16][..other], [&[2.0; 16][..other]]).is_err());
+        wrong += u32::from(!matches!(ours.merge(&theirs), Err(Error::LengthMismatch { .. })) || ours.count() != 1);
+    }
+    number(f64::from(wrong), Flags::NONE)
 }
 
 /// Σ1/N with a sum in `f32`.

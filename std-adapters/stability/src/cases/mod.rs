@@ -11,6 +11,7 @@ mod range;
 mod several;
 mod strd;
 mod weights;
+mod widened;
 
 use crate::case::{Case, Precision};
 
@@ -27,7 +28,7 @@ pub struct Section {
 /// All sections.
 pub const SECTIONS: &[Section] = &[
     Section { name: "A", title: "Denominators", cases: denominators::cases },
-    Section { name: "B", title: "Dynamic range", cases: range::cases },
+    Section { name: "B", title: "Dynamic range", cases: ranges },
     Section { name: "C", title: "Offsets, constants, cancellation", cases: cancellation::cases },
     Section { name: "D", title: "Counts, few draws, merges", cases: counts::cases },
     Section { name: "E", title: "The estimators' own formulas", cases: formulas },
@@ -36,6 +37,10 @@ pub const SECTIONS: &[Section] = &[
     Section { name: "H", title: "Platform", cases: platform::cases },
     Section { name: "StRD", title: "Constructible sets of NIST's Statistical Reference Datasets", cases: strd::cases },
 ];
+
+fn ranges() -> Vec<Case> {
+    [range::cases(), widened::cases()].into_iter().flatten().collect()
+}
 
 fn formulas() -> Vec<Case> {
     [estimators::cases(), several::cases(), weights::cases()].into_iter().flatten().collect()

@@ -16,6 +16,12 @@ pub(super) fn cases() -> Vec<Case> {
             probe("H1", "half of the least normal number is not flushed to 0", Probes::of::<Subnormal>(precision), 0.5),
             probe("H2", "a·a − b, where fusing them leaves a rest", Probes::of::<Unfused>(precision), 0.0)
                 .naive(precision.of(fused_single, fused_double)),
+            probe(
+                "H3",
+                "2.5·u + u of the least subnormal number u, in u: 4 if fused",
+                Probes::of::<UnfusedSubnormal>(precision),
+                3.0,
+            ),
             probe("H4", "bits of x^½, eˣ and ln x, as a checksum", Probes::once("libm", functions), PINNED),
             probe(
                 "H5",
@@ -54,6 +60,22 @@ impl Probe for Unfused {
         let [a, b] = [a, b].map(|x| V::splat(V::Scalar::from_f64(x)));
         let rest = a * a - b;
         let worst = (0..V::LANES).map(|lane| rest.get(lane).widen().abs()).fold(0.0, f64::max);
+        number(worst, Flags::NONE)
+    }
+}
+
+/// (2.5·u + u)/u: 2.5·u is rounded to 2u, for ties go to even; 3.5·u would be to 4u.
+struct UnfusedSubnormal;
+
+impl Probe for UnfusedSubnormal {
+    fn on<V: Lanes>() -> ChannelEstimate {
+        let single = V::Scalar::from_f64(1e-300).widen() == 0.0;
+        let least = core::hint::black_box(if single { f64::from(f32::from_bits(1)) } else { f64::from_bits(1) });
+        let (times, u) = (V::splat(V::Scalar::from_f64(2.5)), V::splat(V::Scalar::from_f64(least)));
+        let sum = times * u + u;
+        let worst = (0..V::LANES).map(|lane| sum.get(lane).widen() / least).fold(3.0, |worst: f64, here| {
+            if (here - 3.0).abs() > (worst - 3.0).abs() || here.is_nan() { here } else { worst }
+        });
         number(worst, Flags::NONE)
     }
 }

@@ -4,7 +4,9 @@ use crate::answer::ErrorBar;
 use crate::case::{Ask, Case, Precision};
 use crate::probe::Probes;
 use ratiocv_core::moments::{Accumulate, Comoments, Widened};
-use ratiocv_core::{ChannelEstimate, Choose, Difference, Draw, Estimator, Integrals, RatioOfMeans, RegressionRatio, Spectrum};
+use ratiocv_core::{
+    ChannelEstimate, Choose, Difference, Draw, Estimator, Integrals, RatioOfMeans, RegressionRatio, Spectrum,
+};
 
 /// What f and h are multiples of: those of B1, B2 and B3.
 const SCALES: [(f32, f32); 3] = [(1e20, 1e20), (1e-25, 1e-25), (1e30, 1e-30)];
@@ -31,7 +33,7 @@ pub(super) fn cases() -> Vec<Case> {
 fn row(id: &'static str, about: &'static str, scale: usize, run: fn() -> ChannelEstimate) -> Case {
     let f = f64::from(SCALES[scale].0);
     let case = Case::new(id, about, Precision::Single, Ask::Probe(Probes::once("Spectrum<_, 3>", run)), f);
-    case.digits(14.0).error(ErrorBar::AtMost(1e-12 * f)).silent()
+    case.digits(14.0).error(ErrorBar::AtMost(1e-12 * f))
 }
 
 /// The estimate of estimator `WHICH`, of 200 draws between two sound channels.
