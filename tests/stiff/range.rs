@@ -5,8 +5,8 @@ use ratiocv_core::moments::{
     Accumulate, Blocked, Comoments, ComomentsBlock, HasComoments, Joined, Moments, RatioOf, UnivariateBlock, Widened,
 };
 use ratiocv_core::{
-    Beale, CrossFitted, Draw, Estimator, Flags, HartleyRoss, Integrals, MeanOfRatios, RatioOfMeans, RegressionRatio,
-    Tin,
+    Beale, CrossFitted, Draw, Estimator, Flags, HartleyRoss, Integrals, MeanOfRatios, Plain, RatioOfMeans,
+    RegressionRatio, Tin,
 };
 use ratiocv_tests::assert_close;
 
@@ -148,5 +148,24 @@ fn a_black_channel_has_no_error_bar_in_a_mean_of_ratios() {
         let black = run_on(&MeanOfRatios, |_| Both::default(), &draws, [1.0]);
         assert!(black.value == 0.0 && black.std_error.is_nan(), "{black:?}");
         assert!(black.flags.contains(Flags::NO_SUPPORT), "{black:?}");
+    }
+}
+
+/// h = ±u about 0, u the least number: its squares vanish and its sum cancels, but its products with f do not. They were
+/// once taken for a slope of 10⁴⁵, and the spread of f for twenty times what it is; now it is unknown, and flagged.
+#[test]
+fn squares_that_vanish_are_seen_by_their_products() {
+    let u = f32::from_bits(1);
+    let mut moments = Comoments::<f32>::default();
+    for i in 0..55 {
+        let [f, h] = [[0.0, 0.0], [0.0, 0.0], [u, u], [2.0, -u], [1.25, 0.0]][i % 5];
+        moments.add(Draw::new(f, h));
+    }
+    let spread = moments.closed().channel(0).comoments();
+    assert!(spread.hh[0][0].is_nan() && spread.ff().is_nan(), "{spread:?}");
+    let plain = Plain.estimate_anyway(&moments, &Integrals::ONE);
+    assert_close(plain.value, 0.65, 1e-6, "the mean");
+    for estimate in [plain, RatioOfMeans.estimate_anyway(&moments, &Integrals::ONE)] {
+        assert!(estimate.std_error.is_nan() && estimate.flags(0).contains(Flags::UNDERFLOW), "{estimate:?}");
     }
 }

@@ -34,7 +34,7 @@ use core::array;
 /// makes an error bar of them). NaN or an infinity in a channel makes that channel's moments NaN.
 /// Squares beyond the range of the lanes' scalar leave the means right and the second moments
 /// unknown, which estimators report as OVERFLOW or UNDERFLOW. Only if the deviations from a block's first
-/// draw have squares that vanish and a mean that is 0 do they count as 0.
+/// draw have squares that vanish, a mean that is 0 and products with the other number that are 0 do they count as 0.
 ///
 /// ```
 /// use ratiocv_core::{moments::{Accumulate, Comoments}, Draw, Estimator, Integrals, Tin};
@@ -134,16 +134,18 @@ impl<V: Lanes, const K: usize> Squares<V, K> {
         self.hh[i.max(j)][i.min(j)]
     }
 
-    /// NaN where squares underflowed; `slope` is what e is about, `e` and `h` are any sums of them.
+    /// NaN where squares underflowed; `slope` is what e is about, `e` and `h` are any sums of them. Where a sum cancels,
+    /// products with what is larger tell all the same.
     #[inline(always)]
     fn unless_underflowed(mut self, slope: &[V; K], e: V, h: &[V; K], smallest: V) -> Self
     where
         V: Lanes<Scalar = f64>,
     {
         let f_scale = (0..K).fold(self.ee, |sum, k| sum + slope[k] * slope[k] * self.hh[k][k]);
-        self.ee = unless_underflowed(self.ee, f_scale, e, smallest);
+        let or = |sum: V, product: V| V::select(V::equal(sum, V::ZERO), product, sum);
+        self.ee = unless_underflowed(self.ee, f_scale, self.eh.into_iter().fold(e, or), smallest);
         for (k, h) in h.iter().enumerate() {
-            self.hh[k][k] = unless_underflowed(self.hh[k][k], self.hh[k][k], *h, smallest);
+            self.hh[k][k] = unless_underflowed(self.hh[k][k], self.hh[k][k], or(*h, self.eh[k]), smallest);
         }
         self
     }
