@@ -142,7 +142,8 @@ impl<V: Lanes, const K: usize> Squares<V, K> {
         V: Lanes<Scalar = f64>,
     {
         let f_scale = (0..K).fold(self.ee, |sum, k| sum + slope[k] * slope[k] * self.hh[k][k]);
-        let or = |sum: V, product: V| V::select(V::equal(sum, V::ZERO), product, sum);
+        // A product that is NaN, of an infinity and 0, tells nothing.
+        let or = |sum: V, product: V| sum + product.only(V::ZERO.lt(magnitude(product))).only(V::equal(sum, V::ZERO));
         self.ee = unless_underflowed(self.ee, f_scale, self.eh.into_iter().fold(e, or), smallest);
         for (k, h) in h.iter().enumerate() {
             self.hh[k][k] = unless_underflowed(self.hh[k][k], self.hh[k][k], or(*h, self.eh[k]), smallest);
