@@ -3,6 +3,7 @@
 use crate::description::{Description, Filter};
 use crate::error::SceneError;
 use crate::geometry::{Beam, Columns};
+use crate::planted::planted;
 use crate::random::Random;
 use glam::Vec3;
 
@@ -64,6 +65,6 @@ impl Camera {
     #[inline(always)]
     fn in_tent(&self, u: f32) -> f32 {
         let offset = if u < 0.5 { (2.0 * u).sqrt() - 1.0 } else { 1.0 - (2.0 - 2.0 * u).sqrt() };
-        0.5 + self.tent * offset
+        0.5 + self.tent * planted!("tent_of_half_the_width": offset, 0.5 * offset)
     }
 }

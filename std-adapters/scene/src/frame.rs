@@ -1,5 +1,6 @@
 //! Directions about an axis.
 
+use crate::planted::planted;
 use core::f32::consts::FRAC_PI_2;
 use glam::Vec3;
 
@@ -65,7 +66,7 @@ pub(crate) fn uniform_direction([u, v]: [f32; 2]) -> Vec3 {
 pub(crate) fn cosine_direction([u, v]: [f32; 2]) -> Vec3 {
     let radius = u.sqrt();
     let [cos, sin] = turn(v);
-    Vec3::new(radius * cos, radius * sin, (1.0 - u).sqrt())
+    Vec3::new(radius * cos, radius * sin, planted!("hemisphere_without_root": (1.0 - u).sqrt(), 1.0 - u))
 }
 
 #[cfg(test)]

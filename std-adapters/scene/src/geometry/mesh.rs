@@ -3,6 +3,7 @@
 use crate::description::{self, Shape};
 use crate::error::SceneError;
 use crate::geometry::Ray;
+use crate::planted::planted;
 use glam::Vec3;
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::{Bvh2, builder::build_bvh2_from_tris};
@@ -45,7 +46,10 @@ impl Triangle {
         let scale = 1.0 / area.dot(area);
         let (u, v) = (p.cross(b).dot(area) * scale, a.cross(p).dot(area) * scale);
         let [n, n_u, n_v] = self.normals;
-        (self.normal, (n * (1.0 - u - v) + n_u * u + n_v * v).normalize_or(self.normal))
+        (
+            self.normal,
+            (planted!("normal_of_one_corner": n * (1.0 - u - v) + n_u * u + n_v * v, n)).normalize_or(self.normal),
+        )
     }
 
     pub(crate) fn area(&self) -> f32 {
@@ -54,7 +58,7 @@ impl Triangle {
 
     /// A point that is uniform over the area, and the normal that emits.
     pub(crate) fn sample(&self, [u, v]: [f32; 2]) -> (Vec3, Vec3) {
-        let root = u.sqrt();
+        let root = planted!("triangle_by_a_corner": u.sqrt(), u);
         (self.corner + self.edges[0] * (root * (1.0 - v)) + self.edges[1] * (root * v), self.normal)
     }
 

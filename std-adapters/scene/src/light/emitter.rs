@@ -2,6 +2,7 @@
 
 use crate::geometry::{Cube, Rectangle, Solid, Sphere, Triangle};
 use crate::light::towards::{Towards, cone};
+use crate::planted::planted;
 use core::f32::consts::PI;
 use glam::Vec3;
 
@@ -118,7 +119,11 @@ impl Emitter {
                 let to = *position - from;
                 let square = to.dot(to);
                 let distance = square.sqrt();
-                (distance > 0.0).then(|| Towards { direction: to / distance, distance, inverse_pdf: 1.0 / square })
+                (distance > 0.0).then(|| Towards {
+                    direction: to / distance,
+                    distance,
+                    inverse_pdf: 1.0 / planted!("point_by_distance": square, distance),
+                })
             }
         }
     }
@@ -154,7 +159,7 @@ impl Emitter {
             Self::Sphere(sphere) => {
                 let to_center = sphere.center - from;
                 let cap = cone(sphere.radius, to_center.dot(to_center));
-                if cap > 0.0 { 2.0 * PI * cap } else { f32::INFINITY }
+                if cap > 0.0 { planted!("cone_of_the_hemisphere": 2.0 * PI * cap, 2.0 * PI) } else { f32::INFINITY }
             }
             Self::Rectangle { area, .. } | Self::Cube { area, .. } => by_area(*area),
             Self::Mesh { areas, .. } => by_area(areas.last().copied().unwrap_or(0.0)),

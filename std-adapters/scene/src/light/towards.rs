@@ -2,6 +2,7 @@
 
 use crate::frame::{Frame, turn};
 use crate::lanes::{LANES, Lane, Vectors, in_memory};
+use crate::planted::planted;
 use core::f32::consts::PI;
 use glam::Vec3;
 
@@ -23,7 +24,11 @@ impl Towards {
         let distance = square.sqrt();
         let direction = to / distance;
         let cos = -normal.dot(direction);
-        (cos > 0.0 && distance > 0.0).then_some(Self { direction, distance, inverse_pdf: cos * area / square })
+        (cos > 0.0 && distance > 0.0).then_some(Self {
+            direction,
+            distance,
+            inverse_pdf: planted!("area_without_cosine": cos, 1.0) * area / square,
+        })
     }
 
     /// By the cone in which a sphere is seen; `inverse_pdf` is 0 from inside. Without branches, for places side by side.

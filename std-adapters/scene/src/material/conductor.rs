@@ -2,6 +2,7 @@
 
 use crate::colour::Colour;
 use crate::frame::turn;
+use crate::planted::planted;
 use core::f32::consts::PI;
 use glam::Vec3;
 
@@ -29,7 +30,7 @@ impl<C: Colour> Lobes<C> {
         let (sin2, cos2) = (half.x * half.x + half.y * half.y, half.z * half.z);
         self.roughness.map(|a| {
             let (a2, t) = (a * a, sin2 + a * a * cos2);
-            a2 / (2.0 * PI * t * t * Self::smith(a, wi))
+            a2 / (2.0 * PI * t * planted!("ggx_without_square": t, 1.0) * Self::smith(a, wi))
         })
     }
 
@@ -42,7 +43,7 @@ impl<C: Colour> Lobes<C> {
     /// f·cos over the density of each channel: reflectance·G₁(wo), above the horizon.
     #[inline(always)]
     pub(crate) fn over_density(&self, wo: Vec3) -> C {
-        self.reflectance * self.roughness.map(|a| 2.0 * wo.z / Self::smith(a, wo))
+        self.reflectance * self.roughness.map(|a| planted!("unshadowed": 2.0 * wo.z / Self::smith(a, wo), 1.0))
     }
 
     /// A reflected direction from channel `channel`'s visible normals, as a cap of the unit sphere (Dupuy and

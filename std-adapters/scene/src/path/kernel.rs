@@ -222,7 +222,7 @@ impl<
                 if random.uniform() >= greatest {
                     break;
                 }
-                throughput = throughput.times(1.0 / greatest);
+                throughput = throughput.times(planted!("roulette_without_weight": 1.0 / greatest, 1.0));
             }
             ray = vertex.point.towards(direction);
             hit = scene.geometry.closest(&ray);

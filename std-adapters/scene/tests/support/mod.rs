@@ -7,7 +7,7 @@ use ratiocv_scene::{Camera, Description, Filter, Geometry, Light, Material, Medi
 pub(crate) const ALL: [&str; 14] =
     ["S1", "S1b", "S1k", "S2", "S2w", "S3", "S3m", "S4a", "S4b", "S4c", "S4d", "S4e", "S4f", "S4g"];
 
-fn look_at(eye: Vec3, target: Vec3, fov: f32) -> Camera {
+pub(crate) fn look_at(eye: Vec3, target: Vec3, fov: f32) -> Camera {
     let forward = (target - eye).normalize();
     let right = forward.cross(Vec3::Y).normalize();
     let up = right.cross(forward);
@@ -15,7 +15,7 @@ fn look_at(eye: Vec3, target: Vec3, fov: f32) -> Camera {
     Camera { to_world, fov }
 }
 
-fn scene(camera: Camera, max_depth: Option<u32>) -> Description {
+pub(crate) fn scene(camera: Camera, max_depth: Option<u32>) -> Description {
     Description {
         max_depth,
         roulette_depth: None,
@@ -45,7 +45,7 @@ pub(crate) fn lit(geometry: Geometry, emission: Vec3) -> Shape {
     Shape { emission: Some(emission), ..shape(geometry, diffuse(Vec3::ZERO), false) }
 }
 
-fn grey(albedo: f32) -> Material {
+pub(crate) fn grey(albedo: f32) -> Material {
     diffuse(Vec3::splat(albedo))
 }
 

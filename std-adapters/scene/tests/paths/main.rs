@@ -5,6 +5,8 @@
 //! reference. A test may compare up to 400 numbers; α = 10⁻⁹ for all of them, so 2.5·10⁻¹² for each (Šidák),
 //! which is 7.0 standard errors. On top, rounding of `f32`: 4·10⁻⁶ of the value.
 
+mod features;
+#[path = "../support/mod.rs"]
 mod support;
 
 use ratiocv_core::moments::{Accumulate, Comoments, Variance, Widened};
@@ -173,10 +175,13 @@ fn every_choice_of_lights_has_the_same_mean() {
     }
 }
 
-/// The mean of h over all pixels, for each term.
 fn means_of_h(name: &str, options: Options, count: usize) {
-    let scene = scene(name, options);
-    let mut samples = Samples::new(&scene);
+    means_of_h_in(&scene(name, options), count, name);
+}
+
+/// The mean of h over all pixels, for each term.
+fn means_of_h_in(scene: &Scene<Rgb>, count: usize, what: &str) {
+    let mut samples = Samples::new(scene);
     let mut moments = vec![Variance::<Wide, 0>::default(); samples.pairs.len()];
     let [width, height] = scene.size();
     for y in 0..height {
@@ -190,7 +195,7 @@ fn means_of_h(name: &str, options: Options, count: usize) {
     for (moments, term) in moments.iter().zip(scene.terms()) {
         let estimate = Plain.estimate(moments, &Integrals::NONE).expect("enough samples");
         let h = core::array::from_fn(|c| [estimate.value.get(c), estimate.std_error.get(c)]);
-        agree(h, [1.0; 3], [0.0; 3], &format!("{name}, h of {term}"));
+        agree(h, [1.0; 3], [0.0; 3], &format!("{what}, h of {term}"));
     }
 }
 
