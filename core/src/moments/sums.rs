@@ -3,11 +3,10 @@
 use crate::draw::Draw;
 use crate::lanes::Lanes;
 use crate::moments::blocked::Blocked;
-use crate::moments::kernel::{Kernel, State, Takes, lanes_beside, larger_first, partials};
+use crate::moments::kernel::{Kernel, State, Takes, larger_first, partials};
 use crate::moments::read::{HasMeans, Means};
 use crate::moments::save;
 use crate::planted::planted;
-use crate::spectrum::Spectrum;
 
 /// Means of f and of `K` auxiliaries, and nothing else: what plain Monte Carlo (`K = 0`) and the
 /// ratio of means (`K = 1`) need for a value. The standard error is unknown (NaN).
@@ -48,22 +47,19 @@ impl<W: Lanes, const K: usize> Default for SumsState<W, K> {
     }
 }
 
-impl<V: Lanes, const K: usize> SumsBlock<V, K> {
-    #[inline(always)]
-    fn join(&mut self, other: &Self) {
-        self.sum = self.sum.zip(other.sum, V::add);
-    }
-    #[inline(always)]
-    fn map<U: Lanes>(&self, mut change: impl FnMut(V) -> U) -> SumsBlock<U, K> {
-        SumsBlock { shift: self.shift.map(&mut change), sum: self.sum.map(change) }
-    }
+/// Several [`SumsBlock`]s side by side, in the order in which draws lie in memory: whole vectors of them are added
+/// as they are, f and h alike, without a shuffle.
+#[derive(Clone, Copy, Debug)]
+pub struct SumsBeside<V, const K: usize, const P: usize> {
+    shift: [Draw<V, K>; P],
+    sum: [Draw<V, K>; P],
 }
 
 impl<V: Lanes, const K: usize> Kernel for SumsBlock<V, K> {
     type State = SumsState<V::Wide, K>;
     const PARTIALS: usize = partials(V::LANES);
     const LEARNS: bool = false;
-    lanes_beside!(SumsBlock<Spectrum<V, P>, K>);
+    type Beside<const P: usize> = SumsBeside<V, K, P>;
 
     #[inline(always)]
     fn empty(_: &Self::State) -> Self {
@@ -73,6 +69,24 @@ impl<V: Lanes, const K: usize> Kernel for SumsBlock<V, K> {
     fn close(&self, _: &Self::State, count: u64) -> Self::State {
         let count = V::Wide::splat(count as f64);
         SumsState { anchor: self.shift.map(V::widen), relative: self.sum.map(|sum| sum.widen() / count) }
+    }
+    #[inline(always)]
+    fn fold(&mut self, other: &Self) {
+        self.sum = self.sum.zip(other.sum, V::add);
+    }
+    #[inline(always)]
+    fn beside<const P: usize>(&self) -> SumsBeside<V, K, P> {
+        SumsBeside { shift: [self.shift; P], sum: [self.sum; P] }
+    }
+    #[inline(always)]
+    fn part<const P: usize>(parts: &SumsBeside<V, K, P>, part: usize) -> Self {
+        Self { shift: parts.shift[part], sum: parts.sum[part] }
+    }
+    #[inline(always)]
+    fn fold_beside<const P: usize>(parts: &mut SumsBeside<V, K, P>, others: &SumsBeside<V, K, P>) {
+        for (sum, other) in parts.sum.iter_mut().zip(&others.sum) {
+            *sum = sum.zip(*other, V::add);
+        }
     }
 }
 
@@ -88,8 +102,10 @@ impl<V: Lanes, const K: usize> Takes<Draw<V, K>> for SumsBlock<V, K> {
         self.sum = self.sum.zip(draw.zip(self.shift, V::sub), V::add);
     }
     #[inline(always)]
-    fn add_beside<const P: usize>(parts: &mut Self::Beside<P>, index: usize, draws: &[Draw<V, K>; P]) {
-        parts.add(index, &Draw::side_by_side(draws));
+    fn add_beside<const P: usize>(parts: &mut SumsBeside<V, K, P>, _: usize, draws: &[Draw<V, K>; P]) {
+        for ((sum, shift), draw) in parts.sum.iter_mut().zip(&parts.shift).zip(draws) {
+            *sum = sum.zip(draw.zip(*shift, V::sub), V::add);
+        }
     }
 }
 

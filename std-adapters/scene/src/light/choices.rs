@@ -2,7 +2,7 @@
 
 use crate::colour::Colour;
 use crate::lanes::{LANES, Lane, Vectors, blend, each, in_memory, mask};
-use crate::light::choice::{Chosen, LightChoice, Lights, Mixture};
+use crate::light::choice::{Light, LightChoice, Lights, Mixture};
 use crate::light::lamps::cosine;
 use crate::planted::planted;
 use glam::Vec3;
@@ -18,24 +18,40 @@ pub(crate) struct Choices {
     dark: [Lane; 3],
 }
 
+impl Choices {
+    /// That of a lone light.
+    #[inline(always)]
+    pub(crate) const fn new() -> Self {
+        Self { light: [0; LANES], probability: [1.0; LANES], preference: [[0.0; LANES]; 3], dark: [[1.0; LANES]; 3] }
+    }
+
+    /// How likely the light that was chosen for place `lane` was to be.
+    #[inline(always)]
+    pub(crate) const fn probability(&self, lane: usize) -> f32 {
+        self.probability[lane]
+    }
+
+    /// How much likelier each channel was to choose `light` for place `lane`, where it was chosen.
+    #[inline(always)]
+    pub(crate) fn h<C: Colour>(&self, light: &Light<C>, lane: usize) -> C {
+        let of = |[r, g, b]: &[Lane; 3]| C::of(Vec3::new(r[lane], g[lane], b[lane]));
+        light.weight * of(&self.preference) + of(&self.dark)
+    }
+}
+
 impl<C: Colour> Lights<C> {
-    /// As [`choose`](Self::choose), for each place; `seen` has room for what it receives of every light.
+    /// As [`choose`](Self::choose), for each place; `seen` has room for what it receives of every light. `choices` are
+    /// new.
     #[inline(always)]
     pub(crate) fn choose_each<const AUXILIARY: bool>(
         &self,
-        at: &Vectors,
-        normals: &Vectors,
+        (at, normals): (&Vectors, &Vectors),
         u: &Lane,
         seen: &mut [Lane],
-    ) -> Choices {
-        let mut choices = Choices {
-            light: [0; LANES],
-            probability: [1.0; LANES],
-            preference: [[0.0; LANES]; 3],
-            dark: [[1.0; LANES]; 3],
-        };
+        choices: &mut Choices,
+    ) {
         if self.lights.len() == 1 {
-            return choices;
+            return;
         }
         let by_channel = AUXILIARY || self.mixture == Mixture::Uniform;
         let lamps = || self.lamps.iter().flat_map(|lamps| (0..LANES).map(move |lane| (lamps, lane)));
@@ -109,24 +125,13 @@ impl<C: Colour> Lights<C> {
                 );
             }
         }
-        in_memory(&mut choices);
-        choices
+        in_memory(choices);
     }
 
     /// The light that was chosen for place `lane`; `None` if no light reaches it.
     #[inline(always)]
-    pub(crate) fn chosen<const AUXILIARY: bool>(&self, choices: &Choices, lane: usize) -> Option<Chosen<C>> {
-        let (light, probability) = (choices.light[lane] as usize, choices.probability[lane]);
-        if probability.is_nan() || probability <= 0.0 {
-            return None;
-        }
-        let h = if AUXILIARY {
-            let of = |[r, g, b]: &[Lane; 3]| C::of(Vec3::new(r[lane], g[lane], b[lane]));
-            self.lights[light].weight * of(&choices.preference) + of(&choices.dark)
-        } else {
-            C::ONE
-        };
-        Some(Chosen { light, probability, h })
+    pub(crate) fn chosen(&self, choices: &Choices, lane: usize) -> Option<&Light<C>> {
+        (choices.probability[lane] > 0.0).then(|| &self.lights[choices.light[lane] as usize])
     }
 }
 
@@ -182,24 +187,30 @@ mod tests {
                     }
                     let u = random.lane();
                     let mut seen = vec![[1.0; LANES]; count];
-                    let choices = lights.choose_each::<true>(&at, &normals, &u, &mut seen);
+                    let mut choices = Choices::new();
+                    lights.choose_each::<true>((&at, &normals), &u, &mut seen, &mut choices);
                     for (lane, u) in u.into_iter().enumerate() {
                         let place = (at.get(lane), Facing::Cosine(normals.get(lane)));
                         let alone = lights.choose::<true>(place, u, &mut weights);
-                        let (Some(ours), Some(alone)) = (lights.chosen::<true>(&choices, lane), alone) else {
-                            assert_eq!(lights.chosen::<true>(&choices, lane).is_some(), alone.is_some());
+                        let (Some(ours), Some(alone)) = (lights.chosen(&choices, lane), alone) else {
+                            assert_eq!(lights.chosen(&choices, lane).is_some(), alone.is_some());
                             none += 1;
                             continue;
                         };
                         // Sums in another order may choose the neighbour.
-                        if ours.light != alone.light {
+                        if choices.light[lane] as usize != alone.light {
                             continue;
                         }
                         same += 1;
-                        let off = (ours.probability - alone.probability).abs();
-                        assert!(off <= 1e-5 * alone.probability, "{count} {choice:?} {mixture:?}: {ours:?} {alone:?}");
+                        let probability = choices.probability(lane);
+                        let off = (probability - alone.probability).abs();
+                        assert!(
+                            off <= 1e-5 * alone.probability,
+                            "{count} {choice:?} {mixture:?}: {probability} {alone:?}"
+                        );
+                        let h = choices.h(ours, lane);
                         for channel in 0..3 {
-                            let (ours, alone) = (ours.h[channel], alone.h[channel]);
+                            let (ours, alone) = (h[channel], alone.h[channel]);
                             assert!((ours - alone).abs() <= 1e-5 * alone.abs(), "{choice:?} {mixture:?}");
                         }
                     }

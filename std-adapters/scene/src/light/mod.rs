@@ -6,7 +6,8 @@ mod emitter;
 mod lamps;
 mod towards;
 
-pub(crate) use choice::{Chosen, Facing, Lights, Weights};
+pub(crate) use choice::{Facing, Lights, Weights};
 pub use choice::{LightChoice, Mixture};
+pub(crate) use choices::Choices;
 pub(crate) use emitter::Emitter;
 pub(crate) use towards::Directions;

@@ -4,7 +4,7 @@ use crate::Scene;
 use crate::colour::Colour;
 use crate::geometry::{Beam, NONE, Nearest, Point, Segments};
 use crate::lanes::{LANES, Vectors, in_memory};
-use crate::light::{Chosen, Directions};
+use crate::light::{Choices, Directions};
 use crate::path::Samples;
 use crate::path::kernel::{Block, Trace, each_beam};
 use crate::path::vertex::Vertex;
@@ -46,10 +46,17 @@ impl<C: Colour, const AUXILIARY: bool> Trace for Direct<'_, C, AUXILIARY> {
         let Self { scene, samples, .. } = self;
         let Samples { plain, pairs, weights, .. } = &mut **samples;
         let count = numbers.len();
-        let mut emission = [C::ZERO; LANES];
+        let plain = &mut plain[numbers.clone()];
+        // What the camera sees is plain; the only pair there can be is of light that was sampled.
+        let mut unpaired = [Draw::ZERO; LANES];
+        let pairs = match pairs.first_mut() {
+            Some(pairs) if AUXILIARY => &mut pairs[numbers],
+            _ => &mut unpaired[..count],
+        };
         let mut places = [None; LANES];
         let (mut at, mut normals) = (Vectors::ZERO, Vectors::ZERO);
-        for lane in 0..count {
+        for (lane, plain) in plain.iter_mut().enumerate() {
+            *plain = C::ZERO;
             let ray = beam.ray(lane);
             let hit = scene.geometry.seen_by(&ray, seen, lane);
             if hit.shape == NONE {
@@ -57,7 +64,7 @@ impl<C: Colour, const AUXILIARY: bool> Trace for Direct<'_, C, AUXILIARY> {
             }
             let (point, surface) = (scene.geometry.point(&ray, hit), &scene.surfaces[hit.shape as usize]);
             if surface.light != NONE && point.normal.dot(ray.direction) < 0.0 {
-                emission[lane] = surface.emission;
+                *plain = surface.emission;
             }
             if let Some(vertex) = Vertex::on::<false>(point, surface, ray.direction) {
                 at.set(lane, point.position);
@@ -66,28 +73,25 @@ impl<C: Colour, const AUXILIARY: bool> Trace for Direct<'_, C, AUXILIARY> {
             }
         }
         in_memory(&mut (&mut at, &mut normals));
-        let choices = scene.lights.choose_each::<AUXILIARY>(&at, &normals, &random.lane(), &mut weights.by_place);
+        let mut choices = Choices::new();
+        scene.lights.choose_each::<AUXILIARY>((&at, &normals), &random.lane(), &mut weights.by_place, &mut choices);
         let [u, v] = [random.lane(), random.lane()];
-        let chosen: [Option<Chosen<C>>; LANES] =
-            core::array::from_fn(|lane| places[lane].and_then(|_| scene.lights.chosen::<AUXILIARY>(&choices, lane)));
         let (mut centers, mut radii) = (Vectors::ZERO, [0.0; LANES]);
-        for (lane, chosen) in chosen.iter().enumerate() {
-            if let Some((center, radius)) =
-                chosen.as_ref().and_then(|chosen| scene.lights.lights[chosen.light].emitter.ball())
-            {
+        for lane in 0..LANES {
+            if let Some((center, radius)) = scene.lights.chosen(&choices, lane).and_then(|lamp| lamp.emitter.ball()) {
                 centers.set(lane, center);
                 radii[lane] = radius;
             }
         }
         in_memory(&mut (&mut centers, &mut radii));
         let to_balls = Directions::to_spheres(&at, (&centers, &radii), [&u, &v]);
-        // f if nothing hides the light, and h.
-        let mut light = [(C::ZERO, C::ONE); LANES];
         let mut shadows = Segments::NONE;
-        for lane in 0..count {
-            let (Some(place), Some(chosen)) = (&places[lane], &chosen[lane]) else { continue };
-            light[lane].1 = chosen.h;
-            let lamp = &scene.lights.lights[chosen.light];
+        for (lane, pair) in pairs.iter_mut().enumerate() {
+            *pair = Draw::new(C::ZERO, C::ONE);
+            let (Some(place), Some(lamp)) = (&places[lane], scene.lights.chosen(&choices, lane)) else { continue };
+            if AUXILIARY {
+                pair.h[0] = choices.h(lamp, lane);
+            }
             let towards = if radii[lane] > 0.0 {
                 to_balls.get(lane)
             } else {
@@ -99,24 +103,18 @@ impl<C: Colour, const AUXILIARY: bool> Trace for Direct<'_, C, AUXILIARY> {
                 continue;
             }
             let f = place.reflectance * lamp.radiance;
-            light[lane].0 = f.times(cos * FRAC_1_PI * (towards.inverse_pdf / chosen.probability));
+            // As if nothing hid the light.
+            pair.f = f.times(cos * FRAC_1_PI * (towards.inverse_pdf / choices.probability(lane)));
             let (end, to) = lamp.segment(towards.distance);
             shadows.set(lane, &place.point.towards(towards.direction), end, to);
         }
         in_memory(&mut shadows);
         let hidden = scene.geometry.hidden(&shadows);
-        for (light, _) in light.iter_mut().zip(hidden).filter(|(_, hidden)| *hidden) {
-            light.0 = C::ZERO;
+        for (pair, _) in pairs.iter_mut().zip(hidden).filter(|(_, hidden)| *hidden) {
+            pair.f = C::ZERO;
         }
-        // What the camera sees is plain; the only pair there can be is of light that was sampled.
-        let plain = plain[numbers.clone()].iter_mut().zip(emission);
-        match pairs.first_mut() {
-            Some(pairs) if AUXILIARY => {
-                for ((plain, emission), (pair, (f, h))) in plain.zip(pairs[numbers].iter_mut().zip(light)) {
-                    (*plain, *pair) = (emission, Draw::new(f, h));
-                }
-            }
-            _ => plain.zip(light).for_each(|((plain, emission), (f, _))| *plain = emission + f),
+        if !AUXILIARY {
+            plain.iter_mut().zip(pairs).for_each(|(plain, pair)| *plain = *plain + pair.f);
         }
     }
 }

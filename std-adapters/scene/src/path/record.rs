@@ -2,7 +2,7 @@
 
 use crate::colour::Colour;
 use crate::path::samples::BLOCK;
-use crate::path::terms::{PLAIN, Terms};
+use crate::path::terms::Terms;
 use crate::planted::planted;
 use ratiocv_core::Draw;
 
@@ -44,12 +44,13 @@ impl<'a, C: Colour, const AUXILIARY: bool> Record<'a, C, AUXILIARY> {
 
     #[inline(always)]
     fn put(&mut self, term: u8, f: C, h: C) {
-        if term == PLAIN {
+        // `PLAIN` is the number of no term.
+        let Some(draws) = self.pairs.get_mut(usize::from(term)) else {
             self.plain = self.plain + f;
             return;
-        }
-        let Some(draws) = self.pairs.get_mut(usize::from(term)) else { return };
-        let draw = &mut draws[self.sample];
+        };
+        // The remainder is the number itself, and needs no check.
+        let draw = &mut draws[self.sample % BLOCK];
         if usize::from(term) < self.written {
             // Deeper than the terms go: with the h that it began with.
             draw.f = draw.f + f;
@@ -65,7 +66,7 @@ impl<'a, C: Colour, const AUXILIARY: bool> Record<'a, C, AUXILIARY> {
         if AUXILIARY {
             let h = planted!("h_zeroed_at_the_end": h, C::ZERO);
             for draws in &mut self.pairs[self.written..] {
-                draws[self.sample] = Draw::new(C::ZERO, h);
+                draws[self.sample % BLOCK] = Draw::new(C::ZERO, h);
             }
         }
         self.plain
