@@ -77,10 +77,10 @@ impl<C: Colour, const AUXILIARY: bool> Trace for Direct<'_, C, AUXILIARY> {
         scene.lights.choose_each::<AUXILIARY>((&at, &normals), &random.lane(), &mut weights.by_place, &mut choices);
         let [u, v] = [random.lane(), random.lane()];
         let (mut centers, mut radii) = (Vectors::ZERO, [0.0; LANES]);
-        for lane in 0..LANES {
+        for (lane, of_ball) in radii.iter_mut().enumerate() {
             if let Some((center, radius)) = scene.lights.chosen(&choices, lane).and_then(|lamp| lamp.emitter.ball()) {
                 centers.set(lane, center);
-                radii[lane] = radius;
+                *of_ball = radius;
             }
         }
         in_memory(&mut (&mut centers, &mut radii));
