@@ -46,10 +46,8 @@ impl Triangle {
         let scale = 1.0 / area.dot(area);
         let (u, v) = (p.cross(b).dot(area) * scale, a.cross(p).dot(area) * scale);
         let [n, n_u, n_v] = self.normals;
-        (
-            self.normal,
-            (planted!("normal_of_one_corner": n * (1.0 - u - v) + n_u * u + n_v * v, n)).normalize_or(self.normal),
-        )
+        let shading = planted!("normal_of_one_corner": n * (1.0 - u - v) + n_u * u + n_v * v, n);
+        (self.normal, shading.normalize_or(self.normal))
     }
 
     pub(crate) fn area(&self) -> f32 {

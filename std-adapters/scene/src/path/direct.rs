@@ -49,10 +49,8 @@ impl<C: Colour, const AUXILIARY: bool> Trace for Direct<'_, C, AUXILIARY> {
         let plain = &mut plain[numbers.clone()];
         // What the camera sees is plain; the only pair there can be is of light that was sampled.
         let mut unpaired = [Draw::ZERO; LANES];
-        let pairs = match pairs.first_mut() {
-            Some(pairs) if AUXILIARY => &mut pairs[numbers],
-            _ => &mut unpaired[..count],
-        };
+        let paired = AUXILIARY && !pairs.is_empty();
+        let pairs = if paired { &mut pairs[0][numbers] } else { &mut unpaired[..count] };
         let mut places = [None; LANES];
         let (mut at, mut normals) = (Vectors::ZERO, Vectors::ZERO);
         for (lane, plain) in plain.iter_mut().enumerate() {
@@ -113,7 +111,7 @@ impl<C: Colour, const AUXILIARY: bool> Trace for Direct<'_, C, AUXILIARY> {
         for (pair, _) in pairs.iter_mut().zip(hidden).filter(|(_, hidden)| *hidden) {
             pair.f = C::ZERO;
         }
-        if !AUXILIARY {
+        if !paired {
             plain.iter_mut().zip(pairs).for_each(|(plain, pair)| *plain = *plain + pair.f);
         }
     }

@@ -1,10 +1,10 @@
 //! What no built-in scene has, or not alone, against closed forms.
 
-use crate::support::{built, diffuse, grey, lit, look_at, quad, scene as description, shape, sphere};
+use crate::support::{built, grey, lit, look_at, quad, scene as description, shape, sphere};
 use crate::{PLAIN, RATIO, Rgb, agree, means_of_h_in, plain_image, plain_pixel, ratio_pixel};
 use core::f64::consts::PI;
 use glam::{Affine3A, DVec3, Vec3, vec3};
-use ratiocv_scene::{BLOCK, Description, Filter, Geometry, Light, Material, Mesh, Options, Scene, Shape};
+use ratiocv_scene::{BLOCK, Description, Filter, Geometry, Light, Mesh, Options, Scene, Shape};
 
 fn prepared(description: &Description, options: Options) -> Scene<Rgb> {
     Scene::new(description, &options).expect("a sound scene")
@@ -74,7 +74,7 @@ fn lights_of_every_shape() {
     let square = 4.0 / PI * (0.5_f64).sqrt() * libm::atan((0.5_f64).sqrt());
     let rectangle = quad(Vec3::Y, Vec3::X, Vec3::Z);
     let positions = [vec3(-1.0, 1.0, -1.0), vec3(1.0, 1.0, -1.0), vec3(1.0, 1.0, 1.0), vec3(-1.0, 1.0, 1.0)];
-    // The first has three times the area of the second, and both a normal that looks down.
+    // Areas 2, 1 and 1, and normals that look down.
     let part = vec3(-1.0, 1.0, 0.0);
     let triangles = vec![[0, 1, 2], [0, 2, 4], [4, 2, 3]];
     let mesh = Mesh { positions: [&positions[..], &[part]].concat(), normals: Vec::new(), triangles };
@@ -140,8 +140,7 @@ fn interpolated_normals() {
     let light = (vec3(2.0, 1.0, 0.5), vec3(5.0, 2.0, 1.0));
     let of = |normals: &[Vec3], flip_normals| {
         let mesh = Mesh { positions: positions.clone(), normals: normals.to_vec(), triangles: vec![[0, 1, 2]] };
-        let material: Material = diffuse(Vec3::splat(REFLECTANCE as f32));
-        let triangle = Shape { flip_normals, ..shape(Geometry::Mesh(mesh), material, true) };
+        let triangle = Shape { flip_normals, ..shape(Geometry::Mesh(mesh), grey(REFLECTANCE as f32), true) };
         let lights = vec![Light::Point { position: light.0, intensity: light.1 }];
         Description { lights, ..spot(vec![triangle]) }
     };
