@@ -115,7 +115,14 @@ impl Flags {
     }
 
     /// These but `others`.
-    pub(crate) const fn without(self, others: Self) -> Self {
+    ///
+    /// ```
+    /// use ratiocv_core::Flags;
+    /// let flags = Flags::NO_SUPPORT | Flags::LOW_ESS;
+    /// assert_eq!(flags.without(Flags::NO_SUPPORT | Flags::RANK), Flags::LOW_ESS);
+    /// ```
+    #[must_use]
+    pub const fn without(self, others: Self) -> Self {
         Self(self.0 & !others.0)
     }
 

@@ -133,9 +133,16 @@ pub trait Estimator<S, const K: usize = 1> {
         moments: &M,
         integrals: &Integrals<M::Lanes, K>,
     ) -> Estimate<M::Lanes> {
-        let closed = moments.closed();
+        // A copy only where there is something to close: a pixel with a round number of samples is read in place.
+        let copy;
+        let closed = if moments.is_closed() {
+            moments
+        } else {
+            copy = moments.closed();
+            &copy
+        };
         Estimate::from_channels(|channel| {
-            of_channel(&closed, channel, |sample| self.estimate_channel(sample, &integrals.channel(channel)))
+            of_channel(closed, channel, |sample| self.estimate_channel(sample, &integrals.channel(channel)))
         })
     }
 }

@@ -101,6 +101,8 @@ pub trait Moments: Sized {
     /// The same moments with nothing left to merge: to be taken once, before the channels are read.
     #[must_use]
     fn closed(&self) -> Self;
+    /// Whether nothing is left to merge, so that the channels may be read as they are.
+    fn is_closed(&self) -> bool;
     /// The moments of channel `channel`; panics if there is no such channel.
     fn channel(&self, channel: usize) -> Self::Channel;
 }
@@ -185,6 +187,9 @@ impl<V, A: Moments> Moments for Widened<V, A> {
     }
     fn closed(&self) -> Self {
         Self::new(self.inner.closed())
+    }
+    fn is_closed(&self) -> bool {
+        self.inner.is_closed()
     }
     fn channel(&self, channel: usize) -> Self::Channel {
         self.inner.channel(channel)

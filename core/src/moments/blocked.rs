@@ -257,9 +257,13 @@ impl<V: Lanes, B: Kernel> Moments for Blocked<V, B> {
         closed
     }
     #[inline]
+    fn is_closed(&self) -> bool {
+        self.open == 0
+    }
+    #[inline]
     fn channel(&self, channel: usize) -> Self::Channel {
         // Closed moments are read in place: a copy of all lanes for each of them would cost their square.
-        if self.open == 0 { self.state.channel(channel) } else { self.state().channel(channel) }
+        if self.is_closed() { self.state.channel(channel) } else { self.state().channel(channel) }
     }
 }
 

@@ -141,6 +141,9 @@ impl<M: Moments> Moments for Checked<M, Skip> {
     fn closed(&self) -> Self {
         Self { moments: self.moments.closed(), policy: PhantomData, ..*self }
     }
+    fn is_closed(&self) -> bool {
+        self.moments.is_closed()
+    }
     fn channel(&self, channel: usize) -> M::Channel {
         self.moments.channel(channel)
     }

@@ -93,9 +93,12 @@ pub(crate) fn pass<C: Colour>(
     random: &mut Random,
 ) -> Passage<C> {
     let mut scattered = f32::INFINITY;
-    for medium in media {
+    // Of the last medium that scatters, in most scenes the only one: not worked out again below.
+    let (mut last, mut known) = (usize::MAX, Interval(0.0, 0.0));
+    for (i, medium) in media.iter().enumerate() {
         if medium.scatters {
-            let Interval(near, far) = medium.interval(ray, t);
+            (last, known) = (i, medium.interval(ray, t));
+            let Interval(near, far) = known;
             let u = random.uniform();
             if near < far {
                 let distance = near - (1.0 - u).logarithm() / medium.extinction.channel(channel);
@@ -108,8 +111,9 @@ pub(crate) fn pass<C: Colour>(
     let end = scattered.min(t);
     let [mut sampled, mut absorbed] = [C::ZERO; 2];
     let [mut extinction, mut scattering] = [C::ZERO; 2];
-    for medium in media {
-        let interval = medium.interval(ray, t);
+    let mut absorbs = false;
+    for (i, medium) in media.iter().enumerate() {
+        let interval = if i == last { known } else { medium.interval(ray, t) };
         let depth = medium.extinction.times(-Interval(interval.0, interval.1.min(end)).length());
         if medium.scatters {
             sampled = sampled + depth;
@@ -120,10 +124,12 @@ pub(crate) fn pass<C: Colour>(
             }
         } else {
             absorbed = absorbed + depth;
+            absorbs = true;
         }
     }
-    let absorbed = absorbed.exponential();
-    let passed = sampled.exponential();
+    // e⁰ = 1 needs no working out.
+    let absorbed = if absorbs { absorbed.exponential() } else { C::ONE };
+    let passed = if last < media.len() { sampled.exponential() } else { C::ONE };
     if scattered.is_finite() {
         let albedo = C::select(C::ZERO.lt(extinction), scattering / extinction, C::ZERO);
         let density = passed * planted!("medium_density_without_extinction": extinction, C::ONE);

@@ -6,16 +6,18 @@
 //! knows its scene.
 
 mod by_hand;
+mod conductor;
+mod fog;
 mod furnace;
-mod three_lights;
+mod lights;
+mod room;
 
+use by_hand::{Block, ByHand};
 use core::hint::black_box;
-use furnace::Furnace;
 use glam::{DVec3, Vec3};
 use ratiocv_core::Spectrum;
 use ratiocv_scene::{BLOCK, BuiltIn, Colour, Description, Needs, Options, Samples, Scene};
 use ratiocv_simd::at_best_level;
-use three_lights::ThreeLights;
 
 type Rgb = Spectrum<f32, 3>;
 
@@ -60,18 +62,22 @@ fn mean(trace: impl Fn([u32; 2], &mut [Vec3; BLOCK])) -> [Vec3; 2] {
         }
     }
     let n = (pixels().count() * BLOCK) as f64;
-    [(sum / n).as_vec3(), ((squares / n - sum / n * (sum / n)) / n).as_vec3()]
+    // What is the same everywhere has no variance but rounding.
+    let variance = (squares / n - sum / n * (sum / n)).max(DVec3::ZERO);
+    [(sum / n).as_vec3(), (variance / n).as_vec3()]
 }
 
 /// A loop by hand, once it is seen to have the scene's own mean: N = 17 216, 6 standard errors of the difference,
 /// and rounding.
-fn by_hand(scene: &Scene<Rgb>, trace: impl Fn([u32; 2], &mut [Vec3; BLOCK])) -> usize {
+fn by_hand(description: &Description, hand: impl ByHand) -> usize {
+    let trace = |pixel, light: &mut [Vec3; BLOCK]| at_best_level(Block { scene: hand, pixel, light });
+    let scene = of::<Rgb>(description, false);
     let [right, right_square] = mean(|pixel, light| {
-        let mut samples = Samples::new(scene);
+        let mut samples = Samples::new(&scene);
         scene.trace(pixel, 0, BLOCK, 1, &mut samples);
         *light = samples.plain.map(|plain| Vec3::from_array(plain.0));
     });
-    let [ours, square] = mean(&trace);
+    let [ours, square] = mean(trace);
     let allowed = 6.0 * (square + right_square).map(f32::sqrt) + 1e-4 * right;
     assert!((ours - right).abs().cmple(allowed).all(), "by hand {ours}, but {right}");
     let mut light = [Vec3::ZERO; BLOCK];
@@ -98,11 +104,23 @@ fn main() {
             say("needed", count(&of::<Rgb>(&description, true)));
             say("plain", count(&of::<Rgb>(&description, false)));
         }
-        let plain = || of::<Rgb>(&description, false);
-        match *name {
-            "S1" => say("by-hand", by_hand(&plain(), |pixel, light| at_best_level(ThreeLights { pixel, light }))),
-            "S4b" => say("by-hand", by_hand(&plain(), |pixel, light| at_best_level(Furnace { pixel, light }))),
-            _ => {}
-        }
+        let samples = match *name {
+            "S1" => by_hand(&description, lights::s1::<true>()),
+            "S1b" => by_hand(&description, lights::s1b()),
+            "S1k" => by_hand(&description, lights::s1k()),
+            "S2" => by_hand(&description, room::s2()),
+            "S2w" => by_hand(&description, room::s2w()),
+            "S3" => by_hand(&description, fog::s3::<1>()),
+            "S3m" => by_hand(&description, fog::s3::<5>()),
+            "S4a" => by_hand(&description, furnace::s4a()),
+            "S4b" => by_hand(&description, furnace::s4b()),
+            "S4c" => by_hand(&description, furnace::s4c()),
+            "S4d" => by_hand(&description, furnace::s4d()),
+            "S4e" => by_hand(&description, furnace::s4e()),
+            "S4f" => by_hand(&description, lights::s1::<false>()),
+            "S4g" => by_hand(&description, furnace::s4g()),
+            other => panic!("no loop by hand for {other}"),
+        };
+        say("by-hand", samples);
     }
 }

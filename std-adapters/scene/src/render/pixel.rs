@@ -172,16 +172,10 @@ impl Total {
         for channel in 0..C::LANES {
             let black = total.value[channel] == 0.0 && part.plain.count() > 0;
             let unseen = if black { Flags::NO_SUPPORT } else { Flags::NONE };
-            total.flags[channel] = but(total.flags[channel], Flags::NO_SUPPORT) | unseen;
+            total.flags[channel] = total.flags[channel].without(Flags::NO_SUPPORT) | unseen;
         }
         total
     }
-}
-
-/// `flags` without `other`.
-fn but(flags: Flags, other: Flags) -> Flags {
-    let kept = Flags::ALL.iter().filter(|(flag, _)| *flag != other && flags.contains(*flag));
-    kept.fold(Flags::NONE, |all, (flag, _)| all | *flag)
 }
 
 impl<C: Colour, M: Term<C>> Pixel<C, M> {
