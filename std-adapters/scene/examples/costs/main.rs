@@ -3,7 +3,8 @@
 //!
 //! Variants: `everything`, the kernel that leaves nothing out, on three channels with auxiliaries; `needed`, the
 //! kernel that is chosen, with auxiliaries where there are any; `plain`, the one without; `by-hand`, a loop that
-//! knows its scene.
+//! knows its scene. `render` and `render-plain` are whole renders at 64 samples by the defensive ratio and by plain
+//! Monte Carlo: kernels, what is kept of pixels, and the estimates.
 
 mod by_hand;
 mod conductor;
@@ -16,8 +17,9 @@ use by_hand::{Block, ByHand};
 use core::hint::black_box;
 use glam::{DVec3, Vec3};
 use ratiocv_core::Spectrum;
-use ratiocv_scene::{BLOCK, BuiltIn, Colour, Description, Needs, Options, Samples, Scene};
+use ratiocv_scene::{BLOCK, Budget, BuiltIn, Colour, Description, Method, Needs, Options, Render, Samples, Scene};
 use ratiocv_simd::at_best_level;
+use rayon::ThreadPoolBuilder;
 
 type Rgb = Spectrum<f32, 3>;
 
@@ -26,23 +28,33 @@ fn pixels() -> impl Iterator<Item = [u32; 2]> {
     (0..128 * 128).step_by(61).map(|pixel| [pixel % 128, pixel / 128])
 }
 
-/// A block of samples of each.
+/// What callgrind counts.
 #[inline(never)]
-fn counted(trace: &mut dyn FnMut([u32; 2])) -> usize {
-    let mut samples = 0;
-    for pixel in pixels() {
-        trace(pixel);
-        samples += BLOCK;
-    }
-    samples
+fn counted(work: &mut dyn FnMut() -> usize) -> usize {
+    work()
+}
+
+/// A block of samples of each pixel.
+fn blocks(mut trace: impl FnMut([u32; 2])) -> usize {
+    counted(&mut || {
+        pixels().for_each(&mut trace);
+        pixels().count() * BLOCK
+    })
 }
 
 fn count<C: Colour>(scene: &Scene<C>) -> usize {
     let mut samples = Samples::new(scene);
-    counted(&mut |pixel| {
+    blocks(|pixel| {
         scene.trace(pixel, 0, BLOCK, 1, &mut samples);
         black_box(&mut samples);
     })
+}
+
+/// 16 × 16 pixels, 64 samples each, by one thread.
+fn render(description: &Description, method: Method) -> usize {
+    let render = Render::new(description).method(method).budget(Budget::Samples(64));
+    let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    pool.install(|| counted(&mut || render.run().expect("a scene that comes with the crate").samples as usize))
 }
 
 fn of<C: Colour>(description: &Description, auxiliary: bool) -> Scene<C> {
@@ -81,7 +93,7 @@ fn by_hand(description: &Description, hand: impl ByHand) -> usize {
     let allowed = 6.0 * (square + right_square).map(f32::sqrt) + 1e-4 * right;
     assert!((ours - right).abs().cmple(allowed).all(), "by hand {ours}, but {right}");
     let mut light = [Vec3::ZERO; BLOCK];
-    counted(&mut |pixel| {
+    blocks(|pixel| {
         trace(pixel, &mut light);
         black_box(&mut light);
     })
@@ -93,7 +105,7 @@ fn main() {
         if !named.is_empty() && !named.iter().any(|n| n == name) {
             continue;
         }
-        let description = Description::built_in(name).expect("a scene that comes with the crate");
+        let mut description = Description::built_in(name).expect("a scene that comes with the crate");
         let needs = Needs::of(&description, &Options::default());
         let say = |variant: &str, samples: usize| println!("{name} {variant} {samples}");
         say("everything", count(&of::<Rgb>(&description, true).with_everything()));
@@ -122,5 +134,8 @@ fn main() {
             other => panic!("no loop by hand for {other}"),
         };
         say("by-hand", samples);
+        description.size = [16; 2];
+        say("render", render(&description, Method::default()));
+        say("render-plain", render(&description, Method::plain()));
     }
 }
