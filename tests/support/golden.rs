@@ -334,7 +334,7 @@ pub fn seed() -> Golden {
     serde_json::from_str(include_str!("../golden/golden_public.json")).expect("golden_public.json")
 }
 
-/// Grouped Mickey and others beyond the seed, on the same laws.
+/// Grouped Mickey and others beyond the supplement, on the same laws.
 pub fn beyond() -> Golden {
     serde_json::from_str(include_str!("../golden/golden_beyond_public.json")).expect("golden_beyond_public.json")
 }

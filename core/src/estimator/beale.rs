@@ -10,7 +10,7 @@ use crate::scaled::quotient_times;
 
 /// H·(ȳx̄ + s_xy/N)/(x̄² + s_xx/N), sample covariances with divisor N − 1.
 ///
-/// Bias −2F(D + S)/N² (Beale 1962; the seed's S_fh and S_hh must be sample covariances for that to
+/// Bias −2F(D + S)/N² (Beale 1962; the supplement's S_fh and S_hh must be sample covariances for that to
 /// hold), MSE as the ratio of means to first order. Needs 2 draws; one falls back to the ratio of
 /// means. Defined at x̄ = 0 if h varies; all x = 0 gives ȳ and DENOM_ZERO.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

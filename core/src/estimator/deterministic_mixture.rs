@@ -14,7 +14,7 @@ use crate::scaled::quotient_times;
 /// auxiliary that resembles it.
 ///
 /// Consistent; MSE Var(y − ΣF_k x_k/H_k)/N to first order with F_k = E\[w_k y\], all parts sharing the
-/// draws (the seed's Eq. 156 lacks the cross terms). It depends on the weights through the F_k alone,
+/// draws (the supplement's Eq. 156 lacks the cross terms). It depends on the weights through the F_k alone,
 /// so that constant weights, those of the best [`RandomMixture`](crate::RandomMixture), are as good as
 /// any; `weights` has the heuristics. The same sum over the depths of a path needs no weights.
 ///

@@ -11,7 +11,7 @@ use crate::planted::planted;
 /// ȳ + Σ_k β_k(H_k − x̄_k).
 ///
 /// With β given ([`fixed`](Difference::fixed), or learned from other draws): unbiased for every β, MSE
-/// Var(y − Σβ_k x_k)/N, least for β* = Cov(x)⁻¹Cov(x, y) (the seed's Lemma 7). With β̂ fitted to the same
+/// Var(y − Σβ_k x_k)/N, least for β* = Cov(x)⁻¹Cov(x, y) (the supplement's Lemma 7). With β̂ fitted to the same
 /// draws, as it stands: consistent, bias −F(C21 − aC30)/(C20·N) with a = C11/C20 for one auxiliary, MSE
 /// of β* to first order. [`CrossFitted`](crate::CrossFitted) is unbiased *and* fitted.
 ///

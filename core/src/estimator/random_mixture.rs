@@ -16,7 +16,7 @@ use core::array;
 ///
 /// With the ratio of means, ȳ·Σα_kH_k/Σα_k x̄_k for α_k = a_k/H_k: consistent, MSE
 /// Var(y − FΣ_k a_k x_k/H_k)/N to first order for Σa_k = 1. The least, over all a, is a least-squares
-/// problem in h_k/H_k (the seed's Lemma 12, which lacks the H_k), for two auxiliaries
+/// problem in h_k/H_k (the supplement's Lemma 12, which lacks the H_k), for two auxiliaries
 /// a_2 = Cov(u_2 − u_1, y/F − u_1)/Var(u_2 − u_1), u_k = x_k/H_k.
 ///
 /// As it stands a is learned from the draws, Σa = 1 and a ≥ 0, so that the denominator is positive where

@@ -14,7 +14,7 @@ use crate::scaled::quotient_times;
 /// α = 0 is plain Monte Carlo and α = 1 the ratio of means, both to the bit; α = −1 is the product
 /// estimator, for auxiliaries that fall where f rises. Consistent for every α. Bias for one auxiliary
 /// F\[α(α+1)C20/2 − αC11\]/N, MSE F²(C02 + α²C20 − 2αC11)/N to first order, least for α* = β*H/F
-/// (the seed's Lemma 11 with F/H as it should be): that of the optimal difference.
+/// (the supplement's Lemma 11 with F/H as it should be): that of the optimal difference.
 ///
 /// As it stands α is learned from the draws, α̂_k = β̂_k·x̄_k/ȳ, shrunk and **clamped** (to \[−1, 2\] by
 /// default; ALPHA where the clamp acts): free α̂ has no finite mean where ȳ can be near 0. An auxiliary

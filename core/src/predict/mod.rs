@@ -1,6 +1,6 @@
 //! Bias and mean squared error of each estimator, from the moments of the draws' law.
 //!
-//! To first and to second order in 1/N (Tin 1965, with the seed's misprints put right); exact for
+//! To first and to second order in 1/N (Tin 1965, with the supplement's misprints put right); exact for
 //! plain Monte Carlo, the mean of ratios and Hartley–Ross.
 
 mod fitted;

@@ -168,7 +168,7 @@ fn two<S: Scalar>(method: Several, draws: &Draws<2>, integrals: [f64; 2]) -> S {
     let determinant = c(1, 1) * c(2, 2) - c(1, 2) * c(1, 2);
     let beta =
         [(c(0, 1) * c(2, 2) - c(0, 2) * c(1, 2)) / determinant, (c(0, 2) * c(1, 1) - c(0, 1) * c(1, 2)) / determinant];
-    // Of u_k = h_k/H_k and y/F: the seed's Lemma 12 for two.
+    // Of u_k = h_k/H_k and y/F: the supplement's Lemma 12 (Lu et al. 2025) for two.
     let u = |row: &[S; 3]| [row[1] / one, row[2] / other];
     let value = mean[0];
     let top = sum(&|row| (u(row)[1] - u(row)[0]) * (row[0] / value - u(row)[0]));

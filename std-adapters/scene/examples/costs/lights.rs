@@ -69,13 +69,13 @@ impl<const N: usize, const WITH_BALL: bool> ByHand for Lights<N, WITH_BALL> {
             (origin - direction * (origin.y / direction.y), Vec3::Y, 0.5)
         };
         let mut weights = [0.0; N];
-        for i in 0..N {
-            let to = self.centers[i] - place;
+        for ((weight, center), importance) in weights.iter_mut().zip(&self.centers).zip(&self.importance) {
+            let to = *center - place;
             let square = to.dot(to);
             let inverse = 1.0 / square.sqrt();
             let (cos, sin) = (normal.dot(to) * inverse, self.radius * inverse);
             let seen = if cos >= sin { cos } else { (cos + sin) * (cos + sin) * 0.25 / sin };
-            weights[i] = if cos > -sin { self.importance[i] * seen / square } else { 0.0 };
+            *weight = if cos > -sin { importance * seen / square } else { 0.0 };
         }
         let total: f32 = weights.iter().sum();
         let (chosen, u) = (random.uniform() * total, random.uniforms());
