@@ -2,7 +2,7 @@
 
 use crate::colour::Colour;
 use crate::path::samples::BLOCK;
-use crate::path::terms::Terms;
+use crate::path::terms::{Paired, Terms};
 use crate::planted::planted;
 use ratiocv_core::Draw;
 
@@ -12,7 +12,7 @@ pub(super) struct Record<'a, C, const AUXILIARY: bool> {
     terms: &'a Terms,
     pairs: &'a mut [[Draw<C>; BLOCK]],
     sample: usize,
-    /// Terms that were written; a path comes to them in their order.
+    /// Terms that were written: the number of the next.
     written: usize,
 }
 
@@ -25,38 +25,29 @@ impl<'a, C: Colour, const AUXILIARY: bool> Record<'a, C, AUXILIARY> {
     /// f and h of light that was sampled.
     #[inline(always)]
     pub(super) fn light(&mut self, depth: usize, f: C, h: C) {
-        if AUXILIARY {
-            self.put(self.terms.light(depth), f, h);
-        } else {
-            self.plain = self.plain + f;
-        }
+        self.put(self.terms.light, depth, f, h);
     }
 
     /// f and h of light that was met.
     #[inline(always)]
     pub(super) fn scattering(&mut self, depth: usize, f: C, h: C) {
-        if AUXILIARY {
-            self.put(self.terms.scattering(depth), f, h);
-        } else {
-            self.plain = self.plain + f;
-        }
+        self.put(self.terms.scattering, depth, f, h);
     }
 
     #[inline(always)]
-    fn put(&mut self, term: u8, f: C, h: C) {
-        // `PLAIN` is the number of no term.
-        let Some(draws) = self.pairs.get_mut(usize::from(term)) else {
+    fn put(&mut self, paired: Paired, depth: usize, f: C, h: C) {
+        if !AUXILIARY || depth < paired.from {
             self.plain = self.plain + f;
             return;
-        };
+        }
         // The remainder is the number itself, and needs no check.
-        let draw = &mut draws[self.sample % BLOCK];
-        if usize::from(term) < self.written {
+        let place = self.sample % BLOCK;
+        if let Some(draws) = self.pairs.get_mut(self.written) {
+            draws[place] = Draw::new(f, h);
+            self.written += 1;
+        } else if let Some(draws) = self.pairs.get_mut(paired.last) {
             // Deeper than the terms go: with the h that it began with.
-            draw.f = draw.f + f;
-        } else {
-            *draw = Draw::new(f, h);
-            self.written = usize::from(term) + 1;
+            draws[place].f = draws[place].f + f;
         }
     }
 

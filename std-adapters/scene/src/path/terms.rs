@@ -6,9 +6,6 @@ use core::fmt;
 /// Deeper light is in the pair of this depth.
 const DEEPEST: usize = 8;
 
-/// Light that goes to the plain sum.
-pub(super) const PLAIN: u8 = u8::MAX;
-
 /// How light was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Technique {
@@ -37,18 +34,34 @@ impl fmt::Display for Term {
     }
 }
 
-/// Which term each depth of each technique goes to; in the order in which a path comes to them.
+/// Which depths of a technique have terms: all from one on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Paired {
+    /// The first; beyond any depth if none has one, and h is 1 in all.
+    pub(super) from: usize,
+    /// The number of the last term, which deeper light is in too.
+    pub(super) last: usize,
+}
+
+impl Paired {
+    const NONE: Self = Self { from: usize::MAX, last: 0 };
+
+    fn add(&mut self, depth: usize, number: usize) {
+        *self = Self { from: self.from.min(depth), last: number };
+    }
+}
+
+/// The terms, in the order in which a path comes to them: it passes none by, so that the next one need not be looked up.
 #[derive(Debug)]
 pub(crate) struct Terms {
-    /// By depth, [`DEEPEST`] at most; [`PLAIN`] where h is 1.
-    light: [u8; DEEPEST + 1],
-    scattering: [u8; DEEPEST + 1],
+    pub(super) light: Paired,
+    pub(super) scattering: Paired,
     pub(crate) terms: Vec<Term>,
 }
 
 impl Terms {
     pub(crate) fn new(needs: &Needs) -> Self {
-        let mut terms = Self { light: [PLAIN; DEEPEST + 1], scattering: [PLAIN; DEEPEST + 1], terms: Vec::new() };
+        let mut terms = Self { light: Paired::NONE, scattering: Paired::NONE, terms: Vec::new() };
         if !needs.auxiliary {
             return terms;
         }
@@ -57,27 +70,15 @@ impl Terms {
         let path = |reflections: usize| needs.coloured_media || needs.coloured_conductors && reflections > 0;
         for depth in 1..=limit.min(DEEPEST) {
             let term = |technique| Term { technique, depth, and_deeper: depth == DEEPEST && limit > DEEPEST };
-            let number = terms.terms.len() as u8;
             if depth > 1 && needs.light_sampling && (needs.coloured_lights || path(depth - 2)) {
-                terms.light[depth] = number;
+                terms.light.add(depth, terms.terms.len());
                 terms.terms.push(term(Technique::Light));
             }
-            let number = terms.terms.len() as u8;
             if (depth == 1 || needs.scattering) && path(depth - 1) {
-                terms.scattering[depth] = number;
+                terms.scattering.add(depth, terms.terms.len());
                 terms.terms.push(term(Technique::Scattering));
             }
         }
         terms
-    }
-
-    #[inline(always)]
-    pub(super) fn light(&self, depth: usize) -> u8 {
-        self.light[depth.min(DEEPEST)]
-    }
-
-    #[inline(always)]
-    pub(super) fn scattering(&self, depth: usize) -> u8 {
-        self.scattering[depth.min(DEEPEST)]
     }
 }
