@@ -78,6 +78,18 @@ fn no_size_of_counts_leaves_the_range() {
     assert_close(b, 0.8, 1e-15, "weight");
 }
 
+/// In units of a pdf that hardly draws, what others are squared to is denormal: found by fuzzing.
+#[test]
+fn a_pdf_without_draws_costs_the_others_no_digit() {
+    let (counts, pdfs) = ([0.5, 14.0, 1.0 / 6.0, 2.3e-308], [1.0 / 6.0, 1e7, 1.0 / 18.0, 1.34e154]);
+    let weights = SQUARE.weights(&counts, &pdfs);
+    assert_close(weights[1], 1.0, 4.0 * f64::EPSILON, "the greatest");
+    for k in [0, 2] {
+        let product = counts[k] * pdfs[k] / 1.4e8;
+        assert_close(weights[k] / (product * product), 1.0, 8.0 * f64::EPSILON, "a small one");
+    }
+}
+
 #[test]
 fn e14_zero_pdfs_have_zero_weights() {
     for heuristic in [BALANCE, SQUARE] {

@@ -70,7 +70,9 @@ impl PowerHeuristic {
         let mut terms: [f64; K] =
             core::array::from_fn(|k| if counts[k] == 0.0 { 0.0 } else { self.power(of(k) * relative[k]) });
         let mut sum = terms.iter().fold(0.0, |sum, term| sum + term);
-        let lost = |k: usize| counts[k] > 0.0 && pdfs[k] > 0.0 && relative[k] < f64::MIN_POSITIVE;
+        // Denormal numbers keep few digits, also where they are small beside the sum.
+        let is_denormal = |k: usize| relative[k].min(terms[k]) < f64::MIN_POSITIVE;
+        let lost = |k: usize| counts[k] > 0.0 && pdfs[k] > 0.0 && is_denormal(k);
         // Enormous or tiny counts, or powers of them: sums of terms that are denormal, or infinite.
         if !(sum >= f64::MIN_POSITIVE / f64::EPSILON && sum.is_finite()) || (largest.is_finite() && (0..K).any(lost)) {
             terms = self.in_units_of_the_largest(counts, pdfs, largest);
