@@ -102,6 +102,15 @@ pub trait Moments: Sized {
     #[must_use]
     fn closed(&self) -> Self;
     /// Whether nothing is left to merge, so that the channels may be read as they are.
+    ///
+    /// ```
+    /// use ratiocv_core::{moments::{Accumulate, Moments, Sums}, Draw};
+    /// let mut moments = Sums::<f64>::default();
+    /// for i in 0..5 {
+    ///     moments.add(Draw::new(f64::from(i), 1.0));
+    /// }
+    /// assert!(!moments.is_closed() && moments.closed().is_closed());
+    /// ```
     fn is_closed(&self) -> bool;
     /// The moments of channel `channel`; panics if there is no such channel.
     fn channel(&self, channel: usize) -> Self::Channel;
