@@ -84,23 +84,27 @@ impl Camera {
     }
 }
 
-/// Where a line is inside a ball; nothing if it is not.
+/// How far along a line its point nearest to the centre of a ball is behind its origin, and the square of half of what is
+/// inside; negative if nothing is.
 #[inline(always)]
-pub(crate) fn through_ball(origin: Vec3, direction: Vec3, center: Vec3, radius: f32) -> Option<[f32; 2]> {
+fn nearest(origin: Vec3, direction: Vec3, center: Vec3, radius: f32) -> (f32, f32) {
     let from = origin - center;
     let b = from.dot(direction);
     let to_line = from - direction * b;
-    let discriminant = radius * radius - to_line.dot(to_line);
+    (b, radius * radius - to_line.dot(to_line))
+}
+
+/// Where a line is inside a ball; nothing if it is not.
+#[inline(always)]
+pub(crate) fn through_ball(origin: Vec3, direction: Vec3, center: Vec3, radius: f32) -> Option<[f32; 2]> {
+    let (b, discriminant) = nearest(origin, direction, center, radius);
     (discriminant > 0.0).then(|| [-b - discriminant.sqrt(), -b + discriminant.sqrt()])
 }
 
 /// The distance of a ball from outside or from its surface, infinite if it is missed.
 #[inline(always)]
 pub(crate) fn to_ball(origin: Vec3, direction: Vec3, center: Vec3, radius: f32) -> f32 {
-    let from = origin - center;
-    let b = from.dot(direction);
-    let to_line = from - direction * b;
-    let discriminant = radius * radius - to_line.dot(to_line);
+    let (b, discriminant) = nearest(origin, direction, center, radius);
     if discriminant < 0.0 || b > 0.0 { f32::INFINITY } else { -b - discriminant.sqrt() }
 }
 
