@@ -39,6 +39,12 @@ impl<V: Lanes, const K: usize> Draw<V, K> {
         self.map(V::widen)
     }
 
+    /// The draw of one channel, read in place: a copy of all lanes for each of them would cost their square.
+    #[inline(always)]
+    pub(crate) fn channel(&self, channel: usize) -> Draw<V::Scalar, K> {
+        Draw { f: self.f.get(channel), h: core::array::from_fn(|k| self.h[k].get(channel)) }
+    }
+
     /// `change` of every entry.
     #[inline(always)]
     pub(crate) fn map<U: Lanes>(self, mut change: impl FnMut(V) -> U) -> Draw<U, K> {

@@ -42,13 +42,26 @@ pub struct Estimate<V: Lanes> {
 
 impl<V: Lanes> Estimate<V> {
     /// Puts an estimate together from its channels.
-    pub(crate) fn from_channels(mut channel: impl FnMut(usize) -> ChannelEstimate) -> Self {
-        let channels = V::PerLane::<ChannelEstimate>::from_fn(&mut channel);
+    #[inline]
+    pub(crate) fn from_channels(channel: impl FnMut(usize) -> ChannelEstimate) -> Self {
+        let channels = V::PerLane::<ChannelEstimate>::from_fn(channel);
         Self {
             value: V::Wide::from_fn(|i| channels.get(i).value),
             std_error: V::Wide::from_fn(|i| channels.get(i).std_error),
             flags: PerLane::from_fn(|i| channels.get(i).flags),
         }
+    }
+
+    /// Values without error bars or remarks, if all channels have one.
+    #[inline(always)]
+    pub(crate) fn of_values(value: impl Fn(usize) -> Option<f64>) -> Option<Self> {
+        let mut are_known = true;
+        let value = V::Wide::from_fn(|channel| {
+            let value = value(channel);
+            are_known &= value.is_some();
+            value.unwrap_or(f64::NAN)
+        });
+        are_known.then(|| Self { value, std_error: V::Wide::splat(f64::NAN), flags: PerLane::from_fn(|_| Flags::NONE) })
     }
 
     /// The flags of channel `channel`; panics if there is no such channel.

@@ -29,7 +29,7 @@ impl<V: Lanes, const K: usize> Integrals<V, K> {
 
     /// The integrals of channel `channel`; panics if there is no such channel.
     pub fn channel(&self, channel: usize) -> [f64; K] {
-        self.0.map(|lanes| lanes.get(channel))
+        core::array::from_fn(|k| self.0[k].get(channel))
     }
 }
 

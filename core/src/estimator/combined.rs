@@ -22,7 +22,8 @@ pub struct Combined<'a, S, const K: usize = 1> {
 
 impl<'a, S> Combined<'a, S> {
     /// h′ = εH + (1−ε)h, ε = `weight`: of integral H.
-    pub(super) fn defensive(moments: &'a S, weight: f64, constant: f64) -> Self {
+    #[inline(always)]
+    pub(super) const fn defensive(moments: &'a S, weight: f64, constant: f64) -> Self {
         Self { moments, constant, coefficients: [1.0 - weight], weight }
     }
 }
@@ -58,7 +59,8 @@ impl<S, const K: usize> Combined<'_, S, K> {
     }
 
     /// A mean of h′ from those of each h.
-    fn mean(&self, h: &[f64; K]) -> f64 {
+    #[inline(always)]
+    pub(super) fn mean(&self, h: &[f64; K]) -> f64 {
         (0..K).fold(self.constant, |mean, k| mean + self.coefficients[k] * h[k])
     }
 

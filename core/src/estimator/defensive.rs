@@ -6,6 +6,7 @@ use crate::estimator::combined::mixed_twice;
 use crate::estimator::{Combined, Estimator, Reads, Sample};
 use crate::integrals::Integrals;
 use crate::lanes::Lanes;
+use crate::moments::Means;
 use crate::planted::planted;
 
 /// `E` on h′ = εH + (1−ε)h, which has the same integral H and keeps away from 0.
@@ -67,17 +68,27 @@ where
     fn estimate_channel(&self, sample: &Sample<'_, S>, integrals: &[f64; 1]) -> ChannelEstimate {
         self.on_defended(sample, integrals, |sample| self.estimator.estimate_channel(sample, integrals))
     }
+    #[inline(always)]
+    fn of_means_alone(&self, &Means { f, h }: &Means, integrals: &[f64; 1]) -> Option<f64> {
+        let defended = Means { f, h: [Combined::defensive(&(), self.weight, self.constant(integrals)).mean(&h)] };
+        self.estimator.of_means_alone(&defended, integrals)
+    }
 }
 
 impl<E> Defensive<E> {
+    /// εH.
+    #[inline(always)]
+    fn constant(&self, &[integral]: &[f64; 1]) -> f64 {
+        planted!("defensive_integral": self.weight * integral, self.weight)
+    }
+
     #[inline]
     fn on_defended<S, T>(
         &self,
         sample: &Sample<'_, S>,
-        &[integral]: &[f64; 1],
+        integrals: &[f64; 1],
         read: impl FnOnce(&Sample<'_, Combined<'_, S>>) -> T,
     ) -> T {
-        let constant = planted!("defensive_integral": self.weight * integral, self.weight);
-        read(&sample.of(&Combined::defensive(sample.moments, self.weight, constant)))
+        read(&sample.of(&Combined::defensive(sample.moments, self.weight, self.constant(integrals))))
     }
 }

@@ -55,7 +55,7 @@ use crate::error::{Error, weight_in_range};
 use crate::estimate::{ChannelEstimate, Estimate};
 use crate::integrals::Integrals;
 use crate::lanes::Lanes;
-use crate::moments::{Accumulate, Merge, Moments, Save};
+use crate::moments::{Accumulate, Means, Merge, Moments, Save};
 use num_traits::float::FloatCore;
 
 /// One channel's moments, as an estimator sees them.
@@ -94,6 +94,15 @@ pub trait Estimator<S, const K: usize = 1> {
     /// The estimate of one channel; defined for every sample, with flags where it is not what the
     /// formula says.
     fn estimate_channel(&self, sample: &Sample<'_, S>, integrals: &[f64; K]) -> ChannelEstimate;
+
+    /// The value of a channel, from the means of two draws or more, where nothing else is kept and nothing is to be
+    /// remarked on: the short way of nearly every pixel of a render. What it gives has the bits of
+    /// [`estimate_channel`](Self::estimate_channel); `None`, unless overridden: ask that.
+    #[inline]
+    fn of_means_alone(&self, means: &Means<K>, integrals: &[f64; K]) -> Option<f64> {
+        let _ = (means, integrals);
+        None
+    }
 
     /// Whether the moments are of the kind that this estimator needs: enough draws, and ratios on
     /// the right auxiliary.
@@ -141,8 +150,14 @@ pub trait Estimator<S, const K: usize = 1> {
             copy = moments.closed();
             &copy
         };
-        Estimate::from_channels(|channel| {
-            of_channel(closed, channel, |sample| self.estimate_channel(sample, &integrals.channel(channel)))
+        let short = |channel| {
+            let means = closed.means_alone(channel).filter(|_| closed.count() >= 2)?;
+            self.of_means_alone(&means, &integrals.channel(channel))
+        };
+        Estimate::of_values(short).unwrap_or_else(|| {
+            Estimate::from_channels(|channel| {
+                of_channel(closed, channel, |sample| self.estimate_channel(sample, &integrals.channel(channel)))
+            })
         })
     }
 }

@@ -3,6 +3,7 @@
 use crate::draw::Draw;
 use crate::error::Error;
 use crate::lanes::Lanes;
+use crate::moments::read::Means;
 use crate::moments::save::Save;
 
 /// Takes draws of type `D` and keeps moments of them.
@@ -114,6 +115,26 @@ pub trait Moments: Sized {
     fn is_closed(&self) -> bool;
     /// The moments of channel `channel`; panics if there is no such channel.
     fn channel(&self, channel: usize) -> Self::Channel;
+    /// The means of channel `channel`, with `K` auxiliaries, of closed moments that keep nothing else; `None` of all
+    /// others.
+    ///
+    /// ```
+    /// use ratiocv_core::{moments::{Accumulate, Comoments, Moments, Sums}, Draw};
+    /// let (mut sums, mut more) = (Sums::<f64>::default(), Comoments::<f64>::default());
+    /// for f in [1.0, 3.0] {
+    ///     sums.add(Draw::new(f, 1.0));
+    ///     more.add(Draw::new(f, 1.0));
+    /// }
+    /// let means = sums.means_alone::<1>(0).expect("sums");
+    /// assert_eq!((means.f, means.h), (2.0, [1.0]));
+    /// assert!(more.means_alone::<1>(0).is_none());
+    /// assert!(sums.means_alone::<0>(0).is_none()); // other auxiliaries
+    /// ```
+    #[inline]
+    fn means_alone<const K: usize>(&self, channel: usize) -> Option<Means<K>> {
+        let _ = channel;
+        None
+    }
 }
 
 /// `f64` blocks for `f32` draws: widens each draw, exactly, before it is added.
@@ -202,5 +223,8 @@ impl<V, A: Moments> Moments for Widened<V, A> {
     }
     fn channel(&self, channel: usize) -> Self::Channel {
         self.inner.channel(channel)
+    }
+    fn means_alone<const K: usize>(&self, channel: usize) -> Option<Means<K>> {
+        self.inner.means_alone(channel)
     }
 }

@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::lanes::Lanes;
 use crate::moments::accumulate::{Accumulate, AccumulateSlices, Merge, Moments, same_length};
 use crate::moments::kernel::{Kernel, State, Takes};
+use crate::moments::read::Means;
 use crate::moments::run::{BLOCK, Run, add_run};
 use crate::moments::save::Save;
 use crate::planted::planted;
@@ -65,6 +66,12 @@ impl<V, B: Kernel> Blocked<V, B> {
         closed.state
     }
 
+    #[cold]
+    #[inline(never)]
+    fn channel_of_open(&self, channel: usize) -> <B::State as State>::Channel {
+        self.state().channel(channel)
+    }
+
     /// The state before any draw: where kernels keep their parameters.
     pub(crate) fn parameters(self) -> B::State {
         self.state
@@ -119,12 +126,15 @@ impl<V, B: Kernel> Blocked<V, B> {
         let mut empty = B::empty(&self.state);
         empty.begin(0, &first.draw(0));
         empty.begin(1, &first.draw(1));
-        let empty = empty.beside::<P>();
-        let mut sums = empty;
-        add_run::<D, B, R, P>(&mut sums, &empty, 0, &first);
+        let mut sums = empty.beside::<P>();
+        add_run::<D, B, R, P>(&mut sums, 0, &first);
         let mut count = BLOCK;
+        // Made for the second run: most batches of a renderer have but one.
+        let mut beside = None;
         for run in runs {
-            add_run::<D, B, R, P>(&mut sums, &empty, count, &run);
+            let mut of_run = *beside.get_or_insert_with(|| empty.beside::<P>());
+            add_run::<D, B, R, P>(&mut of_run, count, &run);
+            B::fold_beside(&mut sums, &of_run);
             count += BLOCK;
         }
         self.absorb_parts::<P>(&sums, count as u64);
@@ -263,7 +273,11 @@ impl<V: Lanes, B: Kernel> Moments for Blocked<V, B> {
     #[inline]
     fn channel(&self, channel: usize) -> Self::Channel {
         // Closed moments are read in place: a copy of all lanes for each of them would cost their square.
-        if self.is_closed() { self.state.channel(channel) } else { self.state().channel(channel) }
+        if self.is_closed() { self.state.channel(channel) } else { self.channel_of_open(channel) }
+    }
+    #[inline]
+    fn means_alone<const K: usize>(&self, channel: usize) -> Option<Means<K>> {
+        if self.is_closed() { self.state.means_alone(channel) } else { None }
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::draw::Draw;
 use crate::error::Error;
 use crate::lanes::Lanes;
-use crate::moments::{Accumulate, Merge, Moments, Pairs};
+use crate::moments::{Accumulate, Means, Merge, Moments, Pairs};
 use core::marker::PhantomData;
 use num_traits::float::FloatCore;
 
@@ -146,6 +146,9 @@ impl<M: Moments> Moments for Checked<M, Skip> {
     }
     fn channel(&self, channel: usize) -> M::Channel {
         self.moments.channel(channel)
+    }
+    fn means_alone<const K: usize>(&self, channel: usize) -> Option<Means<K>> {
+        self.moments.means_alone(channel)
     }
 }
 

@@ -114,10 +114,7 @@ impl<W: Lanes<Scalar = f64>, const G: usize, const K: usize> State for GroupsSta
         }
     }
     fn channel(&self, channel: usize) -> GroupsState<f64, G, K> {
-        // By reference: mapping the arrays would copy all lanes.
-        let of =
-            |mean: &Draw<W, K>| Draw { f: mean.f.get(channel), h: core::array::from_fn(|k| mean.h[k].get(channel)) };
-        GroupsState { means: core::array::from_fn(|group| of(&self.means[group])) }
+        GroupsState { means: core::array::from_fn(|group| self.means[group].channel(channel)) }
     }
     fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
         for mean in &mut self.means {

@@ -1,5 +1,7 @@
 //! What an accumulator sums over a block of draws, and the state that blocks are merged into.
 
+use crate::moments::read::Means;
+
 /// Sums over the draws of one block, and what they amount to.
 ///
 /// *Implemented by* the kernels of this folder; *called by* [`Blocked`](super::Blocked) alone.
@@ -114,6 +116,12 @@ pub trait State: Copy {
     fn merge(&mut self, count: u64, later: &Self, later_count: u64);
     /// The state of channel `channel`; panics if there is no such channel.
     fn channel(&self, channel: usize) -> Self::Channel;
+    /// [`Moments::means_alone`](super::Moments::means_alone).
+    #[inline(always)]
+    fn means_alone<const K: usize>(&self, channel: usize) -> Option<Means<K>> {
+        let _ = channel;
+        None
+    }
     /// Calls `each` with every number, parameters included, in a fixed order: see [`Save`](super::Save).
     fn words(&mut self, each: &mut dyn FnMut(&mut u64));
 }

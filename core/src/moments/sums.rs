@@ -121,11 +121,14 @@ impl<W: Lanes<Scalar = f64>, const K: usize> State for SumsState<W, K> {
             .zip(apart, |mean, apart| mean + apart * W::splat(planted!("sums_fraction": fraction, 1.0 - fraction)));
         *self = Self { relative, ..large };
     }
+    #[inline(always)]
     fn channel(&self, channel: usize) -> SumsState<f64, K> {
-        SumsState {
-            anchor: self.anchor.map(|lanes| lanes.get(channel)),
-            relative: self.relative.map(|lanes| lanes.get(channel)),
-        }
+        SumsState { anchor: self.anchor.channel(channel), relative: self.relative.channel(channel) }
+    }
+    #[inline(always)]
+    fn means_alone<const L: usize>(&self, channel: usize) -> Option<Means<L>> {
+        let Means { f, h } = self.channel(channel).means(0);
+        (L == K).then(|| Means { f, h: core::array::from_fn(|k| h[k]) })
     }
     fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
         save::draw(&mut self.anchor, each);
@@ -134,6 +137,7 @@ impl<W: Lanes<Scalar = f64>, const K: usize> State for SumsState<W, K> {
 }
 
 impl<const K: usize> HasMeans<K> for SumsState<f64, K> {
+    #[inline(always)]
     fn means(&self, _: u64) -> Means<K> {
         let mean = self.anchor.zip(self.relative, |anchor, relative| anchor + relative);
         Means { f: mean.f, h: mean.h }

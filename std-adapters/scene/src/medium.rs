@@ -7,7 +7,7 @@
 use crate::colour::Colour;
 use crate::description::{Geometry, Material, Shape};
 use crate::error::SceneError;
-use crate::geometry::{Cube, Interval, Ray, Sphere};
+use crate::geometry::{Beam, Cube, Interval, Ray, Sphere};
 use crate::material::within;
 use crate::planted::planted;
 use crate::random::Random;
@@ -62,6 +62,16 @@ impl<C: Colour> Filled<C> {
             scattering: C::of(scattering),
             scatters: scattering != glam::Vec3::ZERO,
         }))
+    }
+
+    /// Whether any ray of the beam may pass through it.
+    #[inline(always)]
+    pub(crate) fn is_met_by(&self, beam: &Beam) -> bool {
+        let distances = match &self.bound {
+            Bound::Sphere(sphere) => sphere.distances(beam),
+            Bound::Cube(cube) => cube.distances(beam),
+        };
+        distances.iter().fold(false, |is_met, t| is_met | t.is_finite())
     }
 
     /// Where the ray is inside, up to `t`.

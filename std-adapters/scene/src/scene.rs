@@ -4,7 +4,7 @@ use crate::camera::Camera;
 use crate::colour::Colour;
 use crate::description::{Description, Light};
 use crate::error::SceneError;
-use crate::geometry::{Geometry, NONE};
+use crate::geometry::{Beam, Geometry, NONE, Nearest};
 use crate::light::{Emitter, Lights};
 use crate::material::{Surface, within};
 use crate::medium::Filled;
@@ -48,8 +48,8 @@ impl<C: Colour> Scene<C> {
     /// let scene = Scene::<Spectrum<f32, 3>>::new(&Description::built_in("S4b")?, &Default::default())?;
     /// let mut samples = Samples::new(&scene);
     /// scene.trace([64, 64], 0, 16, 1, &mut samples); // 16 samples of the pixel in the middle
-    /// for light in &samples.plain[..samples.count] {
-    ///     assert!((light[2] - 1.6).abs() < 1e-5);
+    /// for light in samples.plain() {
+    ///     assert!((light.f[2] - 1.6).abs() < 1e-5);
     /// }
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -130,12 +130,25 @@ impl<C: Colour> Scene<C> {
     /// let scene = scene.with_everything();
     /// let mut samples = Samples::new(&scene);
     /// scene.trace([64, 64], 0, 16, 1, &mut samples);
-    /// assert!((samples.plain[3][2] - 1.6).abs() < 1e-5);
+    /// assert!((samples.plain()[3].f[2] - 1.6).abs() < 1e-5);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
     pub fn with_everything(self) -> Self {
         Self { kernel: C::everything(), ..self }
+    }
+
+    /// Whether no ray of the beam, which meets `seen`, meets anything at all. Triangles are not looked up for it.
+    #[inline(always)]
+    pub(crate) fn is_sky<const MEDIA: bool>(&self, beam: &Beam, seen: &Nearest) -> bool {
+        let mut is_sky = seen.is_nothing() && self.geometry.meshes.is_none();
+        if MEDIA {
+            // A loop, because `any` would be a call, and not in lanes.
+            for medium in &self.media {
+                is_sky = is_sky && !medium.is_met_by(beam);
+            }
+        }
+        is_sky
     }
 
     /// What it needs, and what is left out.
@@ -159,7 +172,8 @@ impl<C: Colour> Scene<C> {
     /// Each (seed, pixel, block) has a random stream of its own: what a sample is depends on these and its
     /// number alone. `samples` must have been made for this scene.
     pub fn trace(&self, pixel: [u32; 2], block: u64, count: usize, seed: u64, samples: &mut Samples<C>) {
-        samples.count = count.min(BLOCK);
-        (self.kernel)(self, Block { pixel, block, count: samples.count, seed }, samples);
+        let count = count.min(BLOCK);
+        samples.begin(count);
+        (self.kernel)(self, Block { pixel, block, count, seed }, samples);
     }
 }

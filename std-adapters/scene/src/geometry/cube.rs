@@ -1,6 +1,7 @@
 //! Cubes, boxes and parallelepipeds.
 
-use crate::geometry::{Columns, Interval, Ray};
+use crate::geometry::{Beam, Columns, Interval, Ray};
+use crate::lanes::Lane;
 use glam::{Affine3A, Vec3};
 
 /// The points whose three coordinates are in \[−1, 1\].
@@ -45,6 +46,12 @@ impl Cube {
     pub(crate) fn distance(&self, ray: &Ray, own: bool) -> f32 {
         let interval = self.interval(ray);
         if own { interval.across() } else { interval.first() }
+    }
+
+    /// The distances at which rays of a beam meet the surface, infinite where they pass.
+    #[inline(always)]
+    pub(crate) fn distances(&self, beam: &Beam) -> Lane {
+        beam.distances(|direction| self.distance(&Ray::new(beam.origin, direction), false))
     }
 
     /// The normal of the face that `position` is on.

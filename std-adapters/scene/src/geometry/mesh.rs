@@ -138,13 +138,13 @@ impl Meshes {
 
     /// The nearest triangle before `t`, and its distance.
     #[inline(never)]
-    pub(super) fn closest<const CAMERA: bool>(&self, ray: &Ray, from: u32, t: f32) -> Option<(f32, u32)> {
-        let least = Self::least(ray, from);
+    pub(super) fn closest<const CAMERA: bool>(&self, ray: Ray, from: u32, t: f32) -> Option<(f32, u32)> {
+        let least = Self::least(&ray, from);
         let mut hit = RayHit::none();
         let boxes = BoxRay::new(ray.origin.into(), ray.direction.into(), 0.0, t);
         self.hierarchy.ray_traverse(boxes, &mut hit, |_, i| {
             let triangle = &self.triangles[i];
-            let distance = triangle.distance(ray);
+            let distance = triangle.distance(&ray);
             let met = distance > least && i as u32 != from && (!CAMERA || triangle.seen);
             if met { distance } else { f32::INFINITY }
         });
@@ -153,11 +153,11 @@ impl Meshes {
 
     /// Whether anything is met before `t`.
     #[inline(never)]
-    pub(super) fn occluded(&self, ray: &Ray, from: u32, t: f32) -> bool {
-        let least = Self::least(ray, from);
+    pub(super) fn occluded(&self, ray: Ray, from: u32, t: f32) -> bool {
+        let least = Self::least(&ray, from);
         let boxes = BoxRay::new(ray.origin.into(), ray.direction.into(), 0.0, t);
         !self.hierarchy.ray_traverse_miss(boxes, |_, i| {
-            let distance = self.triangles[i].distance(ray);
+            let distance = self.triangles[i].distance(&ray);
             if distance > least && i as u32 != from { distance } else { f32::INFINITY }
         })
     }

@@ -221,9 +221,7 @@ impl Geometry {
         let mut nearest = Nearest::NOTHING;
         let mut number = 0;
         for sphere in &self.spheres[..spheres] {
-            let (to_origin, square) = (beam.origin - sphere.center, sphere.radius * sphere.radius);
-            let t = beam.distances(|direction| sphere::distance(to_origin, square, direction));
-            nearest.keep(&t, number);
+            nearest.keep(&sphere.distances(beam), number);
             number += 1;
         }
         number = self.spheres.len() as u32;
@@ -235,8 +233,7 @@ impl Geometry {
         }
         number = (self.spheres.len() + self.rectangles.len()) as u32;
         for cube in &self.cubes[..cubes] {
-            let t = beam.distances(|direction| cube.distance(&Ray::new(beam.origin, direction), false));
-            nearest.keep(&t, number);
+            nearest.keep(&cube.distances(beam), number);
             number += 1;
         }
         nearest
@@ -252,7 +249,7 @@ impl Geometry {
     #[inline(always)]
     fn or_triangle<const CAMERA: bool>(&self, ray: &Ray, hit: Hit) -> Hit {
         if let Some(meshes) = &self.meshes
-            && let Some((t, triangle)) = meshes.closest::<CAMERA>(ray, ray.triangle, hit.t)
+            && let Some((t, triangle)) = meshes.closest::<CAMERA>(*ray, ray.triangle, hit.t)
         {
             return Hit { t, shape: meshes.triangle(triangle).shape, triangle };
         }
@@ -271,7 +268,7 @@ impl Geometry {
             occluded |= number != but && cube.distance(ray, ray.shape == number) < t;
             number += 1;
         }
-        occluded || self.meshes.as_ref().is_some_and(|meshes| meshes.occluded(ray, ray.triangle, t))
+        occluded || self.meshes.as_ref().is_some_and(|meshes| meshes.occluded(*ray, ray.triangle, t))
     }
 
     /// The point where `ray` met `hit`, which is a shape.

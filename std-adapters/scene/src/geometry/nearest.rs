@@ -28,6 +28,12 @@ impl Nearest {
         in_memory(self);
     }
 
+    /// Whether no ray meets anything.
+    #[inline(always)]
+    pub(crate) fn is_nothing(&self) -> bool {
+        self.shape.iter().all(|shape| *shape == NONE)
+    }
+
     /// What ray number `lane` meets.
     #[inline(always)]
     pub(super) const fn lane(&self, lane: usize) -> Hit {

@@ -90,7 +90,7 @@ impl Geometry {
         if let Some(meshes) = &self.meshes {
             for (lane, hidden) in hidden.iter_mut().enumerate().filter(|(lane, _)| segments.ends[*lane] > 0.0) {
                 let ray = Ray::new(segments.origins.get(lane), segments.directions.get(lane));
-                *hidden = *hidden || meshes.occluded(&ray, segments.triangles[lane], segments.ends[lane]);
+                *hidden = *hidden || meshes.occluded(ray, segments.triangles[lane], segments.ends[lane]);
             }
         }
         hidden

@@ -1,6 +1,7 @@
 //! Spheres.
 
-use crate::geometry::{Interval, Ray};
+use crate::geometry::{Beam, Interval, Ray};
+use crate::lanes::Lane;
 use glam::Vec3;
 
 /// A sphere; normals point outwards times `side`.
@@ -28,6 +29,13 @@ impl Sphere {
         let square = self.radius * self.radius - to_line.dot(to_line);
         let half = square.sqrt();
         if square >= 0.0 { Interval(-b - half, half - b) } else { Interval::EMPTY }
+    }
+
+    /// The distances at which rays of a beam meet the surface, infinite where they pass.
+    #[inline(always)]
+    pub(crate) fn distances(&self, beam: &Beam) -> Lane {
+        let (to_origin, square) = (beam.origin - self.center, self.radius * self.radius);
+        beam.distances(|direction| distance(to_origin, square, direction))
     }
 
     /// The point of the surface that is nearest to `position`, and the normal there.

@@ -45,16 +45,17 @@ impl<C: Colour, const AUXILIARY: bool> Trace for Direct<'_, C, AUXILIARY> {
     fn trace(&mut self, numbers: Range<usize>, (beam, seen): (&Beam, &Nearest), random: &mut Random) {
         let Self { scene, samples, .. } = self;
         let Samples { plain, pairs, weights, .. } = &mut **samples;
+        let pairs = &mut pairs.draws;
         let count = numbers.len();
         let plain = &mut plain[numbers.clone()];
         // What the camera sees is plain; the only pair there can be is of light that was sampled.
         let mut unpaired = [Draw::ZERO; LANES];
         let paired = AUXILIARY && !pairs.is_empty();
-        let pairs = if paired { &mut pairs[0][numbers] } else { &mut unpaired[..count] };
+        let pairs = if paired { &mut pairs[numbers] } else { &mut unpaired[..count] };
         let mut places = [None; LANES];
         let (mut at, mut normals) = (Vectors::ZERO, Vectors::ZERO);
         for (lane, plain) in plain.iter_mut().enumerate() {
-            *plain = C::ZERO;
+            *plain = Draw::ZERO;
             let ray = beam.ray(lane);
             let hit = scene.geometry.seen_by(&ray, seen, lane);
             if hit.shape == NONE {
@@ -62,7 +63,7 @@ impl<C: Colour, const AUXILIARY: bool> Trace for Direct<'_, C, AUXILIARY> {
             }
             let (point, surface) = (scene.geometry.point(&ray, hit), &scene.surfaces[hit.shape as usize]);
             if surface.light != NONE && point.normal.dot(ray.direction) < 0.0 {
-                *plain = surface.emission;
+                plain.f = surface.emission;
             }
             if let Some(vertex) = Vertex::on::<false>(point, surface, ray.direction) {
                 at.set(lane, point.position);
@@ -112,7 +113,7 @@ impl<C: Colour, const AUXILIARY: bool> Trace for Direct<'_, C, AUXILIARY> {
             pair.f = C::ZERO;
         }
         if !paired {
-            plain.iter_mut().zip(pairs).for_each(|(plain, pair)| *plain = *plain + pair.f);
+            plain.iter_mut().zip(pairs).for_each(|(plain, pair)| plain.f = plain.f + pair.f);
         }
     }
 }

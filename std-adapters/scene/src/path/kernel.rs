@@ -15,6 +15,7 @@ use crate::path::vertex::Vertex;
 use crate::planted::planted;
 use crate::random::Random;
 use core::ops::Range;
+use ratiocv_core::Draw;
 use ratiocv_simd::Work;
 
 /// What to trace.
@@ -89,6 +90,9 @@ impl<
 {
     #[inline(always)]
     fn trace(&mut self, numbers: Range<usize>, (beam, seen): (&Beam, &Nearest), random: &mut Random) {
+        if self.scene.is_sky::<MEDIA>(beam, seen) {
+            return self.sky(numbers);
+        }
         for (lane, sample) in numbers.enumerate() {
             self.samples.plain[sample] = self.path(sample, (beam, seen, lane), random);
         }
@@ -104,9 +108,22 @@ impl<
     const SCATTERING: bool,
 > Paths<'_, C, AUXILIARY, MEDIA, CONDUCTORS, LIGHTS, SCATTERING>
 {
+    /// Samples whose paths end where they begin, no ray of the beam meeting anything: all like the first.
+    #[inline(always)]
+    fn sky(&mut self, numbers: Range<usize>) {
+        let Samples { plain, pairs, .. } = &mut *self.samples;
+        let mut record = Record::<C, AUXILIARY>::new(&self.scene.terms, pairs, numbers.start);
+        record.scattering(1, self.scene.environment, C::ONE);
+        let light = record.end(C::ONE);
+        plain[numbers.clone()].fill(light);
+        if AUXILIARY {
+            pairs.repeat(numbers.start);
+        }
+    }
+
     /// Traces sample number `sample`, which starts with ray `lane` of the camera's; what is not in pairs is returned.
     #[inline(always)]
-    fn path(&mut self, sample: usize, (beam, seen, lane): (&Beam, &Nearest, usize), random: &mut Random) -> C {
+    fn path(&mut self, sample: usize, (beam, seen, lane): (&Beam, &Nearest, usize), random: &mut Random) -> Draw<C, 0> {
         let Self { scene, samples, .. } = self;
         let Samples { pairs, weights, .. } = &mut **samples;
         let mut record = Record::<C, AUXILIARY>::new(&scene.terms, pairs, sample);
@@ -137,7 +154,9 @@ impl<
             if !in_medium && hit.shape != NONE {
                 found = Some((scene.geometry.point(&ray, hit), &scene.surfaces[hit.shape as usize]));
             }
-            if SCATTERING || depth == 1 {
+            if in_medium && (SCATTERING || depth == 1) {
+                record.dark(depth, h);
+            } else if SCATTERING || depth == 1 {
                 let mut radiance = C::ZERO;
                 let mut weight = 1.0;
                 match &found {
@@ -153,8 +172,7 @@ impl<
                             }
                         }
                     }
-                    None if !in_medium => radiance = scene.environment,
-                    None => {}
+                    None => radiance = scene.environment,
                 }
                 let h = planted!("weight_on_h": h, h.times(weight));
                 record.scattering(depth, (throughput * radiance).times(weight), h);

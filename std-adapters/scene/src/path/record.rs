@@ -1,25 +1,24 @@
 //! Where the light of one path goes.
 
 use crate::colour::Colour;
-use crate::path::samples::BLOCK;
+use crate::path::samples::{BLOCK, Pairs};
 use crate::path::terms::{Paired, Terms};
 use crate::planted::planted;
 use ratiocv_core::Draw;
 
 /// Sample number `sample`. Without `AUXILIARY` everything goes to the plain sum.
 pub(super) struct Record<'a, C, const AUXILIARY: bool> {
-    pub(super) plain: C,
+    plain: C,
     terms: &'a Terms,
-    pairs: &'a mut [[Draw<C>; BLOCK]],
-    sample: usize,
-    /// Terms that were written: the number of the next.
-    written: usize,
+    pairs: &'a mut Pairs<C>,
+    /// Where the pair of the next term goes.
+    at: usize,
 }
 
 impl<'a, C: Colour, const AUXILIARY: bool> Record<'a, C, AUXILIARY> {
     #[inline(always)]
-    pub(super) const fn new(terms: &'a Terms, pairs: &'a mut [[Draw<C>; BLOCK]], sample: usize) -> Self {
-        Self { plain: C::ZERO, terms, pairs, sample, written: 0 }
+    pub(super) const fn new(terms: &'a Terms, pairs: &'a mut Pairs<C>, sample: usize) -> Self {
+        Self { plain: C::ZERO, terms, pairs, at: sample }
     }
 
     /// f and h of light that was sampled.
@@ -34,32 +33,51 @@ impl<'a, C: Colour, const AUXILIARY: bool> Record<'a, C, AUXILIARY> {
         self.put(self.terms.scattering, depth, f, h);
     }
 
+    /// h of a scattering that meets no light.
+    #[inline(always)]
+    pub(super) fn dark(&mut self, depth: usize, h: C) {
+        if AUXILIARY && depth >= self.terms.scattering.from {
+            self.next(C::ZERO, h);
+        }
+    }
+
     #[inline(always)]
     fn put(&mut self, paired: Paired, depth: usize, f: C, h: C) {
         if !AUXILIARY || depth < paired.from {
             self.plain = self.plain + f;
             return;
         }
-        // The remainder is the number itself, and needs no check.
-        let place = self.sample % BLOCK;
-        if let Some(draws) = self.pairs.get_mut(self.written) {
-            draws[place] = Draw::new(f, h);
-            self.written += 1;
-        } else if let Some(draws) = self.pairs.get_mut(paired.last) {
+        if !self.next(f, h)
+            && let Some(draw) = self.pairs.draws.get_mut(paired.last * BLOCK + self.at % BLOCK)
+        {
             // Deeper than the terms go: with the h that it began with.
-            draws[place].f = draws[place].f + f;
+            draw.f = draw.f + f;
         }
     }
 
-    /// The path has ended: h keeps its value, because E[h] = 1 given all that came before.
+    /// Writes the pair of the next term, if there is one.
     #[inline(always)]
-    pub(super) fn end(self, h: C) -> C {
+    fn next(&mut self, f: C, h: C) -> bool {
+        let Some(draw) = self.pairs.draws.get_mut(self.at) else { return false };
+        *draw = Draw::new(f, h);
+        self.at += BLOCK;
+        true
+    }
+
+    /// The path has ended: h keeps its value, because E[h] = 1 given all that came before. The light that is in no pair.
+    #[inline(always)]
+    pub(super) fn end(self, h: C) -> Draw<C, 0> {
         if AUXILIARY {
             let h = planted!("h_zeroed_at_the_end": h, C::ZERO);
-            for draws in &mut self.pairs[self.written..] {
-                draws[self.sample % BLOCK] = Draw::new(C::ZERO, h);
+            if self.at >= self.pairs.distinct && self.pairs.distinct < self.pairs.draws.len() {
+                self.pairs.distinguish(self.at);
+            }
+            let (draws, mut at) = (self.pairs.distinct(), self.at);
+            while let Some(draw) = draws.get_mut(at) {
+                *draw = Draw::new(C::ZERO, h);
+                at += BLOCK;
             }
         }
-        self.plain
+        Draw { f: self.plain, h: [] }
     }
 }

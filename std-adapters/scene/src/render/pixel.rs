@@ -4,9 +4,9 @@ use crate::colour::Colour;
 use crate::path::Samples;
 use crate::planted::planted;
 use crate::render::method::{OnPixel, Term};
-use ratiocv_core::moments::{Accumulate, Mean, Merge, Moments, Save, Variance};
+use ratiocv_core::moments::{Mean, Merge, Moments, Save, Variance};
 use ratiocv_core::{Draw, Estimate, Estimator, Flags, Integrals, Plain};
-use ratiocv_simd::{Work, add_batch, at_best_level};
+use ratiocv_simd::add_batch;
 
 /// Parts of a pixel's samples that the jackknife leaves out in turn.
 const GROUPS: usize = 8;
@@ -21,10 +21,13 @@ pub struct Pixel<C: Colour, M> {
     groups: Vec<Part<C, M>>,
 }
 
+/// Terms that no path has reached are alike, and one of them stands for all: a pixel of the sky has one.
 #[derive(Clone, Debug)]
 struct Part<C: Colour, M> {
     plain: Mean<C, 0>,
     terms: Vec<M>,
+    /// Terms with moments of their own, from the first on; the others have those of the last of these.
+    distinct: usize,
 }
 
 /// What a pixel comes to, per channel (1 or 3).
@@ -40,40 +43,53 @@ pub struct PixelEstimate {
 
 impl<C: Colour, M: Term<C>> Part<C, M> {
     fn new(terms: usize, empty: M) -> Self {
-        Self { plain: Mean::default(), terms: vec![empty; terms] }
+        Self { plain: Mean::default(), terms: vec![empty; terms], distinct: terms.min(1) }
     }
 
-    fn add(&mut self, plain: &[C], pairs: impl Iterator<Item = impl AsRef<[Draw<C>]>>) {
-        at_best_level(AddPlain(&mut self.plain, plain));
-        for (term, pairs) in self.terms.iter_mut().zip(pairs) {
-            add_batch(term, pairs.as_ref());
+    /// Forgets all samples.
+    fn clear(&mut self, empty: M) {
+        self.plain = Mean::default();
+        self.distinct = self.terms.len().min(1);
+        self.terms[..self.distinct].fill(empty);
+    }
+
+    /// The moments of term number `term`, which must exist.
+    fn term(&self, term: usize) -> &M {
+        &self.terms[term.min(self.distinct.saturating_sub(1))]
+    }
+
+    /// Gives the first `distinct` terms moments of their own.
+    fn distinguish(&mut self, distinct: usize) {
+        for term in self.distinct..distinct {
+            self.terms[term] = planted!("unreached_moments_forgotten": self.terms[term - 1], self.terms[0]);
+            self.distinct = term + 1;
+        }
+    }
+
+    /// Adds samples: plain light, and `pairs` of each term of which `distinct` are.
+    fn add<'a>(&mut self, plain: &[Draw<C, 0>], distinct: usize, pairs: impl Fn(usize) -> &'a [Draw<C>]) {
+        add_batch(&mut self.plain, plain);
+        self.distinguish(distinct);
+        for (i, term) in self.terms[..self.distinct].iter_mut().enumerate() {
+            add_batch(term, pairs(i));
         }
     }
 
     fn merge(&mut self, later: &Self) {
         self.plain.merge(&later.plain);
-        for (term, later) in self.terms.iter_mut().zip(&later.terms) {
-            term.merge(later);
+        self.distinguish(later.distinct);
+        for (i, term) in self.terms[..self.distinct].iter_mut().enumerate() {
+            term.merge(later.term(i));
         }
     }
 
     fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
         self.plain.words(each);
+        // A file has the moments of all terms.
+        self.distinguish(self.terms.len());
         for term in &mut self.terms {
             term.words(each);
         }
-    }
-}
-
-/// Light that is added to its moments.
-struct AddPlain<'a, C, M>(&'a mut M, &'a [C]);
-
-impl<C: Colour, M: Accumulate<Draw<C, 0>>> Work for AddPlain<'_, C, M> {
-    type Output = ();
-    #[inline(always)]
-    fn run(self) {
-        let mut rest = self.1.iter();
-        self.0.add_from(self.1.len() as u64, || Draw { f: rest.next().copied().unwrap_or(C::ZERO), h: [] });
     }
 }
 
@@ -95,22 +111,18 @@ impl<C: Colour, M: Term<C>> Pixel<C, M> {
 
     /// Adds samples of this pixel.
     pub fn add(&mut self, samples: &Samples<C>) {
-        let count = samples.count;
-        self.all.add(&samples.plain[..count], samples.pairs.iter().map(|pairs| &pairs[..count]));
+        self.all.add(samples.plain(), samples.distinct(), |term| samples.pairs(term));
         if let Some(spread) = &mut self.spread {
-            at_best_level(AddPlain(spread, &samples.plain[..count]));
+            add_batch(spread, samples.plain());
         }
         // Neighbours go to different groups, so that a few samples reach all of them.
-        let (mut plain, mut pairs) = (Vec::new(), Vec::new());
-        let first = (self.all.plain.count() as usize).wrapping_sub(count);
+        let first = (self.all.plain.count() as usize).wrapping_sub(samples.count());
         for (g, group) in self.groups.iter_mut().enumerate() {
-            let own = |i: &usize| (first.wrapping_add(*i)) % GROUPS == g;
-            plain.clear();
-            plain.extend((0..count).filter(own).map(|i| samples.plain[i]));
-            pairs.clear();
-            pairs
-                .extend(samples.pairs.iter().map(|pairs| (0..count).filter(own).map(|i| pairs[i]).collect::<Vec<_>>()));
-            group.add(&plain, pairs.iter());
+            let own: Vec<usize> = (0..samples.count()).filter(|i| first.wrapping_add(*i) % GROUPS == g).collect();
+            let plain: Vec<_> = own.iter().map(|i| samples.plain()[*i]).collect();
+            let pairs: Vec<Vec<_>> =
+                (0..samples.distinct()).map(|term| own.iter().map(|i| samples.pairs(term)[*i]).collect()).collect();
+            group.add(&plain, pairs.len(), |term| &pairs[term.min(pairs.len() - 1)]);
         }
     }
 
@@ -139,8 +151,7 @@ impl<C: Colour, M: Term<C>> Pixel<C, M> {
     /// Forgets all samples, so that the memory serves another pixel.
     pub fn clear(&mut self, empty: M) {
         for part in core::iter::once(&mut self.all).chain(&mut self.groups) {
-            part.plain = Mean::default();
-            part.terms.fill(empty);
+            part.clear(empty);
         }
         if let Some(spread) = &mut self.spread {
             *spread = Variance::default();
@@ -155,7 +166,7 @@ struct Total {
 }
 
 impl Total {
-    fn of<C: Colour, M>(part: &Part<C, M>, term: impl Fn(usize, &M) -> Estimate<C>) -> Self {
+    fn of<C: Colour, E: OnPixel<C>>(part: &Part<C, E::Term>, estimator: &E, neighbours: &[E::Term]) -> Self {
         let plain = Plain.estimate_anyway(&part.plain, &Integrals::NONE);
         let mut total = Self { value: [0.0; 3], flags: [Flags::NONE; 3] };
         let mut add = |estimate: &Estimate<C>| {
@@ -165,8 +176,10 @@ impl Total {
             }
         };
         add(&plain);
-        for (i, moments) in part.terms.iter().enumerate() {
-            add(&term(i, moments));
+        // Terms that are alike saw no light. One estimate is enough, unless each learns from neighbours of its own.
+        let terms = if neighbours.is_empty() { part.distinct } else { part.terms.len() };
+        for i in 0..terms {
+            add(&estimator.term(part.term(i), neighbours.get(i)));
         }
         // A part without light is no news, a pixel without any is; radiance is never negative.
         for channel in 0..C::LANES {
@@ -179,31 +192,31 @@ impl Total {
 }
 
 impl<C: Colour, M: Term<C>> Pixel<C, M> {
-    /// The estimate with `term` of each term, which is told its number.
+    /// The estimate of `estimator`; coefficients are learned from `neighbours`, one per term, if there are any.
     ///
     /// The error bar is the delete-a-group jackknife of the *sum*: its terms share samples, and their variances do
     /// not add. Of plain light alone it is that of plain Monte Carlo.
-    fn estimate_with(&self, term: impl Fn(usize, &M) -> Estimate<C>) -> PixelEstimate {
-        let total = Total::of(&self.all, &term);
+    pub fn estimate<E: OnPixel<C, Term = M>>(&self, estimator: &E, neighbours: &[M]) -> PixelEstimate {
+        let total = Total::of(&self.all, estimator, neighbours);
         let mut std_error = [f64::NAN; 3];
         if let Some(spread) = &self.spread {
             let plain = Plain.estimate_anyway(spread, &Integrals::NONE);
             (0..C::LANES).for_each(|channel| std_error[channel] = plain.channel(channel).std_error);
         }
         if self.groups.iter().all(|group| group.plain.count() > 0) && !self.groups.is_empty() {
-            std_error = self.jackknife(&term);
+            std_error = self.jackknife(estimator, neighbours);
         }
         PixelEstimate { value: total.value, std_error, flags: total.flags }
     }
 
     /// (G − 1)/G·Σ(θ₍₋g₎ − mean)², θ₍₋g₎ the estimate without group g.
-    fn jackknife(&self, term: impl Fn(usize, &M) -> Estimate<C>) -> [f64; 3] {
+    fn jackknife<E: OnPixel<C, Term = M>>(&self, estimator: &E, neighbours: &[M]) -> [f64; 3] {
         let without: Vec<Total> = (0..self.groups.len())
             .map(|g| {
                 let mut others = self.groups.iter().enumerate().filter(|(i, _)| *i != g).map(|(_, group)| group);
                 let mut rest = others.next().cloned().unwrap_or_else(|| self.all.clone());
                 others.for_each(|other| rest.merge(other));
-                Total::of(&rest, &term)
+                Total::of(&rest, estimator, neighbours)
             })
             .collect();
         let groups = without.len() as f64;
@@ -216,18 +229,12 @@ impl<C: Colour, M: Term<C>> Pixel<C, M> {
             (planted!("jackknife_of_the_total": groups - 1.0, 1.0) / groups * squares).sqrt()
         })
     }
-}
-
-impl<C: Colour, M: Term<C>> Pixel<C, M> {
-    /// The estimate of `estimator`; coefficients are learned from `neighbours`, one per term, if there are any.
-    pub fn estimate<E: OnPixel<C, Term = M>>(&self, estimator: &E, neighbours: &[M]) -> PixelEstimate {
-        self.estimate_with(|i, term| estimator.term(term, neighbours.get(i)))
-    }
 
     /// The exponent α of each channel: the mean over the terms, by the size of their f.
     pub fn alpha<E: OnPixel<C, Term = M>>(&self, estimator: &E, neighbours: &[M]) -> [f64; 3] {
         let (mut sum, mut weights) = ([0.0; 3], [0.0; 3]);
-        for (i, term) in self.all.terms.iter().enumerate() {
+        for i in 0..self.all.terms.len() {
+            let term = self.all.term(i);
             let alpha = estimator.alpha(term, neighbours.get(i));
             let size = estimator.term(term, neighbours.get(i));
             for channel in 0..C::LANES {
@@ -243,10 +250,11 @@ impl<C: Colour, M: Term<C>> Pixel<C, M> {
 
     /// Appends the terms of this pixel to `terms`, or begins with them.
     pub(super) fn merge_terms_into(&self, terms: &mut Vec<M>) {
+        let own = (0..self.all.terms.len()).map(|i| self.all.term(i));
         if terms.is_empty() {
-            terms.extend_from_slice(&self.all.terms);
+            terms.extend(own);
         } else {
-            terms.iter_mut().zip(&self.all.terms).for_each(|(all, own)| all.merge(own));
+            terms.iter_mut().zip(own).for_each(|(all, own)| all.merge(own));
         }
     }
 }

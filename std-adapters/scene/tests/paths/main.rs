@@ -8,6 +8,7 @@
 mod features;
 #[path = "../support/mod.rs"]
 mod support;
+mod terms;
 
 use ratiocv_core::moments::{Accumulate, Comoments, Variance, Widened};
 use ratiocv_core::{Draw, Estimator, Integrals, Lanes, Plain, RatioOfMeans, Spectrum};
@@ -33,7 +34,8 @@ fn plain_pixel<C: Colour>(scene: &Scene<C>, pixel: [u32; 2], blocks: u64, count:
     for block in 0..blocks {
         scene.trace(pixel, block, count, seed, &mut samples);
         for i in 0..count {
-            let all = samples.pairs.iter().fold(samples.plain[i].widen(), |sum, draws| sum + draws[i].f.widen());
+            let all = (0..scene.terms().len())
+                .fold(samples.plain()[i].f.widen(), |sum, term| sum + samples.pairs(term)[i].f.widen());
             let all = Wide::from_fn(|channel| all.get(channel % C::LANES));
             moments.add(Draw { f: all, h: [] });
         }
@@ -65,12 +67,12 @@ fn plain_image<C: Colour>(scene: &Scene<C>, count: usize, seed: u64) -> Measured
 fn ratio_pixel(scene: &Scene<Rgb>, pixel: [u32; 2], blocks: u64, seed: u64) -> Measured {
     let mut samples = Samples::new(scene);
     let mut plain = Variance::<Wide, 0>::default();
-    let mut moments = vec![Widened::<Rgb, Comoments<Wide>>::default(); samples.pairs.len()];
+    let mut moments = vec![Widened::<Rgb, Comoments<Wide>>::default(); scene.terms().len()];
     for block in 0..blocks {
         scene.trace(pixel, block, BLOCK, seed, &mut samples);
-        samples.plain.iter().for_each(|f| plain.add(Draw { f: f.widen(), h: [] }));
-        for (moments, draws) in moments.iter_mut().zip(&samples.pairs) {
-            moments.add_batch(draws);
+        samples.plain().iter().for_each(|draw| plain.add(Draw { f: draw.f.widen(), h: [] }));
+        for (term, moments) in moments.iter_mut().enumerate() {
+            moments.add_batch(samples.pairs(term));
         }
     }
     let plain = Plain.estimate(&plain, &Integrals::NONE).expect("enough samples");
@@ -182,13 +184,13 @@ fn means_of_h(name: &str, options: Options, count: usize) {
 /// The mean of h over all pixels, for each term.
 fn means_of_h_in(scene: &Scene<Rgb>, count: usize, what: &str) {
     let mut samples = Samples::new(scene);
-    let mut moments = vec![Variance::<Wide, 0>::default(); samples.pairs.len()];
+    let mut moments = vec![Variance::<Wide, 0>::default(); scene.terms().len()];
     let [width, height] = scene.size();
     for y in 0..height {
         for x in 0..width {
             scene.trace([x, y], 0, count, 10, &mut samples);
-            for (moments, draws) in moments.iter_mut().zip(&samples.pairs) {
-                draws[..count].iter().for_each(|draw| moments.add(Draw { f: draw.h[0].widen(), h: [] }));
+            for (term, moments) in moments.iter_mut().enumerate() {
+                samples.pairs(term).iter().for_each(|draw| moments.add(Draw { f: draw.h[0].widen(), h: [] }));
             }
         }
     }
@@ -242,13 +244,13 @@ fn samples_depend_on_seed_pixel_block_and_number_alone() {
     };
     let all = of([40, 80], 3, BLOCK, 7);
     let some = of([40, 80], 3, 5, 7);
-    assert_eq!((some.count, all.count), (5, BLOCK));
-    assert_eq!(all.plain[..5], some.plain[..5]);
-    for (all, some) in all.pairs.iter().zip(&some.pairs) {
-        assert_eq!(all[..5], some[..5]);
+    assert_eq!((some.count(), all.count()), (5, BLOCK));
+    assert_eq!(all.plain()[..5], *some.plain());
+    for term in 0..scene.terms().len() {
+        assert_eq!(all.pairs(term)[..5], *some.pairs(term));
     }
     for other in [of([41, 80], 3, 5, 7), of([40, 80], 4, 5, 7), of([40, 80], 3, 5, 8)] {
-        assert_ne!(other.pairs[0][..5], some.pairs[0][..5]);
+        assert_ne!(other.pairs(0), some.pairs(0));
     }
 }
 
