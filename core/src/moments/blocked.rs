@@ -206,14 +206,18 @@ impl<V, D: Copy, B: Takes<D>> Accumulate<D> for Blocked<V, B> {
     fn add_batch(&mut self, draws: &[D]) {
         let (singles, rest) = draws.split_at(self.singles(draws.len()));
         let (runs, tail) = rest.as_chunks::<BLOCK>();
-        self.add_singly(singles.iter().copied());
+        if !singles.is_empty() {
+            self.add_singly(singles.iter().copied());
+        }
         let mut runs = runs;
         while !runs.is_empty() {
             let (block, rest) = runs.split_at(self.runs_at_once(runs.len()));
             self.add_block(block.iter());
             runs = rest;
         }
-        self.add_singly(tail.iter().copied());
+        if !tail.is_empty() {
+            self.add_singly(tail.iter().copied());
+        }
     }
 
     #[inline(always)]

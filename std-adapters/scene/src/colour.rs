@@ -3,6 +3,7 @@
 use crate::path::Traced;
 use glam::Vec3;
 use ratiocv_core::{Lanes, Spectrum};
+use ratiocv_simd::F32x4;
 use ratiocv_simd::functions::Elementary;
 
 /// The colours that a scene is rendered in.
@@ -10,6 +11,18 @@ use ratiocv_simd::functions::Elementary;
 /// *Implemented by* `Spectrum<f32, 3>`, linear RGB, and by `f32` for scenes whose channels are all equal;
 /// *called by* the path tracer.
 pub trait Colour: Lanes<Scalar = f32> + Traced {
+    /// The same while a path is traced.
+    type OnPath: PathColour;
+    /// What is kept of it.
+    fn kept(light: Self::OnPath) -> Self;
+}
+
+/// The colours that a path is traced in: one SIMD register each.
+///
+/// *Implemented by* `Spectrum<f32, 4>`, RGB and blue once more, and by `f32`; *called by* the path tracer.
+pub trait PathColour: Lanes<Scalar = f32> {
+    /// Channels that differ.
+    const CHANNELS: usize;
     /// RGB in this type; of equal channels the first.
     fn of(rgb: Vec3) -> Self;
     /// `change` of every channel.
@@ -29,7 +42,7 @@ pub trait Colour: Lanes<Scalar = f32> + Traced {
     /// The mean of the channels.
     #[inline(always)]
     fn mean(self) -> f32 {
-        self.sum() * (1.0 / Self::LANES as f32)
+        self.sum() * (1.0 / Self::CHANNELS as f32)
     }
     /// Every channel times `factor`.
     #[inline(always)]
@@ -40,6 +53,24 @@ pub trait Colour: Lanes<Scalar = f32> + Traced {
 }
 
 impl Colour for f32 {
+    type OnPath = Self;
+    #[inline(always)]
+    fn kept(light: Self) -> Self {
+        light
+    }
+}
+
+impl Colour for Spectrum<f32, 3> {
+    type OnPath = F32x4;
+    #[inline(always)]
+    fn kept(light: F32x4) -> Self {
+        let [r, g, b, _] = light.to_array();
+        Self([r, g, b])
+    }
+}
+
+impl PathColour for f32 {
+    const CHANNELS: usize = 1;
     #[inline(always)]
     fn of(rgb: Vec3) -> Self {
         rgb.x
@@ -70,35 +101,39 @@ impl Colour for f32 {
     }
 }
 
-impl Colour for Spectrum<f32, 3> {
+impl PathColour for F32x4 {
+    const CHANNELS: usize = 3;
     #[inline(always)]
     fn of(rgb: Vec3) -> Self {
-        Self([rgb.x, rgb.y, rgb.z])
+        Self::new([rgb.x, rgb.y, rgb.z, rgb.z])
     }
     #[inline(always)]
-    fn map(self, mut change: impl FnMut(f32) -> f32) -> Self {
-        let [r, g, b] = self.0;
-        Self([change(r), change(g), change(b)])
+    fn map(self, change: impl FnMut(f32) -> f32) -> Self {
+        Self::new(self.to_array().map(change))
     }
     #[inline(always)]
     fn sum(self) -> f32 {
-        self.0[0] + self.0[1] + self.0[2]
+        let [r, g, b, _] = self.to_array();
+        r + g + b
     }
     #[inline(always)]
     fn largest(self) -> f32 {
-        self.0[0].max(self.0[1]).max(self.0[2])
+        let [r, g, b, _] = self.to_array();
+        r.max(g).max(b)
     }
     #[inline(always)]
     fn luminance(self) -> f32 {
-        0.212_671 * self.0[0] + 0.715_160 * self.0[1] + 0.072_169 * self.0[2]
+        let [r, g, b, _] = self.to_array();
+        0.212_671 * r + 0.715_160 * g + 0.072_169 * b
     }
     #[inline(always)]
     fn channel(self, channel: usize) -> f32 {
-        self.0[channel]
+        self.to_array()[channel]
     }
     #[inline(always)]
-    fn exponential(mut self) -> Self {
-        f32::exponentials(&mut self.0);
-        self
+    fn exponential(self) -> Self {
+        let mut x = self.to_array();
+        f32::exponentials(&mut x);
+        Self::new(x)
     }
 }

@@ -4,7 +4,7 @@
 //! and no offsets, and overlapping media add up. What is sampled is a distance; what only absorbs is not
 //! sampled at all.
 
-use crate::colour::Colour;
+use crate::colour::PathColour;
 use crate::description::{Geometry, Material, Shape};
 use crate::error::SceneError;
 use crate::geometry::{Beam, Cube, Interval, Ray, Sphere};
@@ -40,7 +40,7 @@ pub(crate) struct Passage<C> {
     pub(crate) density: C,
 }
 
-impl<C: Colour> Filled<C> {
+impl<C: PathColour> Filled<C> {
     /// What fills shape `i`, if anything does.
     pub(crate) fn new(shape: &Shape, i: usize) -> Result<Option<Self>, SceneError> {
         let Some(medium) = shape.medium else { return Ok(None) };
@@ -87,7 +87,7 @@ impl<C: Colour> Filled<C> {
 
 /// Tr = exp(−Σ extinction·overlap) along `ray` up to `t`.
 #[inline(always)]
-pub(crate) fn transmittance<C: Colour>(media: &[Filled<C>], ray: &Ray, t: f32) -> C {
+pub(crate) fn transmittance<C: PathColour>(media: &[Filled<C>], ray: &Ray, t: f32) -> C {
     let depth = |sum: C, medium: &Filled<C>| sum + medium.extinction.times(-medium.interval(ray, t).length());
     media.iter().fold(C::ZERO, depth).exponential()
 }
@@ -95,7 +95,7 @@ pub(crate) fn transmittance<C: Colour>(media: &[Filled<C>], ray: &Ray, t: f32) -
 /// Samples where `ray`, which would go on to `t`, is scattered, by channel `channel`'s extinction: a distance in each
 /// medium that scatters, of which the least counts.
 #[inline(always)]
-pub(crate) fn pass<C: Colour>(
+pub(crate) fn pass<C: PathColour>(
     media: &[Filled<C>],
     ray: &Ray,
     t: f32,

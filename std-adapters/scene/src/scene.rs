@@ -1,7 +1,7 @@
 //! A scene that is ready to be traced.
 
 use crate::camera::Camera;
-use crate::colour::Colour;
+use crate::colour::{Colour, PathColour};
 use crate::description::{Description, Light};
 use crate::error::SceneError;
 use crate::geometry::{Beam, Geometry, NONE, Nearest};
@@ -10,6 +10,7 @@ use crate::material::{Surface, within};
 use crate::medium::Filled;
 use crate::needs::{Needs, Options};
 use crate::path::{BLOCK, Block, Kernel, Samples, Term, Terms};
+use ratiocv_core::Lanes;
 
 /// Where paths without a limit begin to end by Russian roulette if the description says nothing: between
 /// white walls they would never end.
@@ -19,14 +20,14 @@ const ENDLESS: usize = 64;
 ///
 /// `C` is `Spectrum<f32, 3>`, or `f32` if [`Needs::channels`] is 1.
 #[derive(Debug)]
-pub struct Scene<C> {
+pub struct Scene<C: Colour> {
     pub(crate) camera: Camera,
     pub(crate) geometry: Geometry,
     /// By number of the geometry.
-    pub(crate) surfaces: Vec<Surface<C>>,
-    pub(crate) lights: Lights<C>,
-    pub(crate) environment: C,
-    pub(crate) media: Vec<Filled<C>>,
+    pub(crate) surfaces: Vec<Surface<C::OnPath>>,
+    pub(crate) lights: Lights<C::OnPath>,
+    pub(crate) environment: C::OnPath,
+    pub(crate) media: Vec<Filled<C::OnPath>>,
     pub(crate) max_depth: usize,
     pub(crate) roulette_depth: usize,
     pub(crate) terms: Terms,
@@ -65,8 +66,8 @@ impl<C: Colour> Scene<C> {
         let mut lights = Lights::new(options.choice, options.mixture);
         let mut surfaces = Vec::new();
         for (number, (i, solid)) in order.iter().enumerate() {
-            let mut surface = Surface::<C>::new(&description.shapes[*i], *i)?;
-            if surface.emission != C::ZERO {
+            let mut surface = Surface::<C::OnPath>::new(&description.shapes[*i], *i)?;
+            if surface.emission != <C::OnPath>::ZERO {
                 let triangles = geometry.meshes.as_ref().map_or(&[][..], |meshes| meshes.triangles());
                 surface.light = lights.lights.len() as u32;
                 lights.push(Emitter::new(*solid, number as u32, triangles), number as u32, surface.emission);
@@ -80,16 +81,16 @@ impl<C: Colour> Scene<C> {
                 return Err(SceneError::NullLight(i));
             }
         }
-        let mut environment = C::ZERO;
+        let mut environment = <C::OnPath>::ZERO;
         for (i, light) in description.lights.iter().enumerate() {
             let sound = match *light {
                 Light::Environment(radiance) => {
-                    environment = environment + C::of(radiance);
+                    environment = environment + <C::OnPath>::of(radiance);
                     within(radiance, f32::MAX)
                 }
                 Light::Point { position, intensity } => {
                     if intensity != glam::Vec3::ZERO {
-                        lights.push(Emitter::Point(position), NONE, C::of(intensity));
+                        lights.push(Emitter::Point(position), NONE, <C::OnPath>::of(intensity));
                     }
                     within(intensity, f32::MAX) && position.is_finite()
                 }
@@ -98,7 +99,7 @@ impl<C: Colour> Scene<C> {
                 return Err(SceneError::Light(i));
             }
         }
-        if lights.lights.is_empty() && environment == C::ZERO {
+        if lights.lights.is_empty() && environment == <C::OnPath>::ZERO {
             return Err(SceneError::NoLight);
         }
         let depth = |depth: Option<u32>| depth.map_or(usize::MAX, |depth| depth as usize);

@@ -1,6 +1,6 @@
 //! Which light to sample: one probability per channel, and the one that is used.
 
-use crate::colour::Colour;
+use crate::colour::PathColour;
 use crate::geometry::NONE;
 use crate::lanes::{LANES, Lane, each, in_memory, total};
 use crate::light::Emitter;
@@ -125,7 +125,7 @@ pub(crate) struct Chosen<C> {
     pub(crate) h: C,
 }
 
-impl<C: Colour> Lights<C> {
+impl<C: PathColour> Lights<C> {
     pub(crate) const fn new(choice: LightChoice, mixture: Mixture) -> Self {
         Self { lights: Vec::new(), lamps: Vec::new(), choice, mixture }
     }
@@ -150,7 +150,7 @@ impl<C: Colour> Lights<C> {
         if let Some(lamps) = self.lamps.last_mut() {
             lamps.set(lane, emitter.bound(), emitter.plane());
             lamps.importance[lane] = importance;
-            for channel in 0..C::LANES {
+            for channel in 0..C::CHANNELS {
                 lamps.weights[channel][lane] = weight.channel(channel);
             }
         }
@@ -180,7 +180,7 @@ impl<C: Colour> Lights<C> {
             sum = each(&sum, weight, |sum, weight| sum + weight);
             in_memory(&mut sum);
             if by_channel {
-                for (channel, weights) in lamps.weights.iter().enumerate().take(C::LANES) {
+                for (channel, weights) in lamps.weights.iter().enumerate().take(C::CHANNELS) {
                     let own = each(weights, seen, |weight, seen| weight * seen);
                     sums[channel] = each(&sums[channel], &own, |sum, own| sum + own);
                 }
@@ -194,7 +194,7 @@ impl<C: Colour> Lights<C> {
             for ((lamps, seen), weight) in self.lamps.iter().zip(&weights.seen).zip(&mut weights.weights) {
                 for lane in 0..LANES {
                     let own = |channel: usize| lamps.weights[channel][lane] * inverse_totals.channel(channel);
-                    weight[lane] = (0..C::LANES).map(own).sum::<f32>() * seen[lane];
+                    weight[lane] = (0..C::CHANNELS).map(own).sum::<f32>() * seen[lane];
                     sum[lane] += weight[lane];
                 }
             }
@@ -222,16 +222,14 @@ impl<C: Colour> Lights<C> {
 mod tests {
     use super::*;
     use crate::random::Random;
-    use ratiocv_core::Spectrum;
+    use ratiocv_simd::F32x4;
 
-    type Rgb = Spectrum<f32, 3>;
-
-    fn lights(choice: LightChoice, mixture: Mixture) -> Lights<Rgb> {
+    fn lights(choice: LightChoice, mixture: Mixture) -> Lights<F32x4> {
         let mut lights = Lights::new(choice, mixture);
         let intensities = [[3.0, 1.0, 0.0], [0.5, 2.0, 0.0], [1.0, 1.0, 0.0]];
         let places = [Vec3::new(0.0, 2.0, 0.0), Vec3::new(3.0, 1.0, 0.0), Vec3::new(0.0, -1.0, 0.0)];
         for (place, intensity) in places.into_iter().zip(intensities) {
-            lights.push(Emitter::Point(place), NONE, Spectrum(intensity));
+            lights.push(Emitter::Point(place), NONE, F32x4::of(Vec3::from_array(intensity)));
         }
         lights
     }
@@ -262,7 +260,7 @@ mod tests {
                     let expected = p * f64::from(n);
                     assert!((counts[light] - expected).abs() <= allowed, "{choice:?} {mixture:?} {light}: {counts:?}");
                     sums[3] += p;
-                    (0..3).for_each(|c| sums[c] += f64::from(chosen.h[c]) * p);
+                    (0..3).for_each(|c| sums[c] += f64::from(chosen.h.channel(c)) * p);
                 }
                 assert!(sums.iter().all(|sum| (sum - 1.0).abs() <= 1e-6), "{choice:?} {mixture:?}: {sums:?}");
                 // Below the horizon there is a light.
@@ -285,7 +283,7 @@ mod tests {
         let p = luminance(0.75, 0.25) / (luminance(0.75, 0.25) + luminance(0.5 * far, 2.0 * far));
         assert_eq!(chosen.light, 0);
         assert!((chosen.probability - p).abs() <= 1e-6, "{chosen:?} {p}");
-        for (ours, right) in chosen.h.0.into_iter().zip([red / p, green / p, 1.0]) {
+        for (ours, right) in chosen.h.to_array().into_iter().zip([red / p, green / p, 1.0]) {
             assert!((ours - right).abs() <= 1e-5, "{chosen:?} {right}");
         }
     }

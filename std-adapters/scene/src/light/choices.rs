@@ -1,6 +1,6 @@
 //! A light for each of eight places on diffuse surfaces: lanes are places, and sums over lights need no trees.
 
-use crate::colour::Colour;
+use crate::colour::PathColour;
 use crate::lanes::{LANES, Lane, Vectors, blend, each, in_memory, mask};
 use crate::light::choice::{Light, LightChoice, Lights, Mixture};
 use crate::light::lamps::cosine;
@@ -33,13 +33,13 @@ impl Choices {
 
     /// How much likelier each channel was to choose `light` for place `lane`, where it was chosen.
     #[inline(always)]
-    pub(crate) fn h<C: Colour>(&self, light: &Light<C>, lane: usize) -> C {
+    pub(crate) fn h<C: PathColour>(&self, light: &Light<C>, lane: usize) -> C {
         let of = |[r, g, b]: &[Lane; 3]| C::of(Vec3::new(r[lane], g[lane], b[lane]));
         light.weight * of(&self.preference) + of(&self.dark)
     }
 }
 
-impl<C: Colour> Lights<C> {
+impl<C: PathColour> Lights<C> {
     /// As [`choose`](Self::choose), for each place; `seen` has room for what it receives of every light. `choices` are
     /// new.
     #[inline(always)]
@@ -68,7 +68,7 @@ impl<C: Colour> Lights<C> {
             total = each(&total, seen, |sum, seen| sum + importance * seen);
             in_memory(&mut total);
             if by_channel {
-                for (totals, weights) in totals.iter_mut().zip(&lamps.weights).take(C::LANES) {
+                for (totals, weights) in totals.iter_mut().zip(&lamps.weights).take(C::CHANNELS) {
                     *totals = each(totals, seen, |sum, seen| sum + weights[number] * seen);
                 }
                 in_memory(&mut totals);
@@ -86,7 +86,7 @@ impl<C: Colour> Lights<C> {
         // The mean of the channels' own probabilities adds up to the number of those that see light.
         if self.mixture == Mixture::Uniform {
             total = [0.0; LANES];
-            for dark in choices.dark.iter().take(C::LANES) {
+            for dark in choices.dark.iter().take(C::CHANNELS) {
                 total = each(&total, dark, |sum, dark| sum + (1.0 - dark));
             }
         }
@@ -98,7 +98,7 @@ impl<C: Colour> Lights<C> {
             let mut weights = [lamps.importance[number]; LANES];
             if self.mixture == Mixture::Uniform {
                 weights = [0.0; LANES];
-                for (inverses, own) in inverses.iter().zip(&lamps.weights).take(C::LANES) {
+                for (inverses, own) in inverses.iter().zip(&lamps.weights).take(C::CHANNELS) {
                     weights = each(&weights, inverses, |sum, inverse| sum + own[number] * inverse);
                 }
             }
@@ -143,12 +143,10 @@ mod tests {
     use crate::light::{Emitter, Facing, Weights};
     use crate::random::Random;
     use glam::Affine3A;
-    use ratiocv_core::Spectrum;
-
-    type Rgb = Spectrum<f32, 3>;
+    use ratiocv_simd::F32x4;
 
     /// `count` lights of all kinds, on all sides of the origin; the last channel has none.
-    fn lights(count: usize, choice: LightChoice, mixture: Mixture) -> Lights<Rgb> {
+    fn lights(count: usize, choice: LightChoice, mixture: Mixture) -> Lights<F32x4> {
         let mut lights = Lights::new(choice, mixture);
         let mut random = Random::new(8, [0, 0], 0);
         for i in 0..count {
@@ -162,7 +160,7 @@ mod tests {
                 }
                 _ => Emitter::Point(center),
             };
-            lights.push(emitter, NONE, Spectrum([random.uniform(), random.uniform(), 0.0]));
+            lights.push(emitter, NONE, F32x4::of(Vec3::new(random.uniform(), random.uniform(), 0.0)));
         }
         lights
     }
@@ -210,7 +208,7 @@ mod tests {
                         );
                         let h = choices.h(ours, lane);
                         for channel in 0..3 {
-                            let (ours, alone) = (h[channel], alone.h[channel]);
+                            let (ours, alone) = (h.channel(channel), alone.h.channel(channel));
                             assert!((ours - alone).abs() <= 1e-5 * alone.abs(), "{choice:?} {mixture:?}");
                         }
                     }

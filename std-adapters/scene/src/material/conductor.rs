@@ -1,6 +1,6 @@
 //! Rough conductors, with a roughness per channel.
 
-use crate::colour::Colour;
+use crate::colour::PathColour;
 use crate::frame::turn;
 use crate::planted::planted;
 use core::f32::consts::PI;
@@ -15,7 +15,7 @@ pub(crate) struct Lobes<C> {
     pub(crate) roughness: C,
 }
 
-impl<C: Colour> Lobes<C> {
+impl<C: PathColour> Lobes<C> {
     /// z + √(z² + α²(1 − z²)): G₁(v) = 2/(1 + √(1 + α² tan² v)) is 2z over it.
     #[inline(always)]
     fn smith(a: f32, v: Vec3) -> f32 {
@@ -66,10 +66,10 @@ impl<C: Colour> Lobes<C> {
 mod tests {
     use super::*;
     use crate::random::Random;
-    use ratiocv_core::Spectrum;
+    use ratiocv_simd::F32x4;
 
-    const LOBES: Lobes<Spectrum<f32, 3>> =
-        Lobes { reflectance: Spectrum([0.9; 3]), roughness: Spectrum([0.1, 0.2, 0.5]) };
+    const LOBES: Lobes<F32x4> =
+        Lobes { reflectance: F32x4::new([0.9; 4]), roughness: F32x4::new([0.1, 0.2, 0.5, 0.5]) };
 
     fn direction(cos: f32, u: f32) -> Vec3 {
         let [x, y] = turn(u);
@@ -95,7 +95,7 @@ mod tests {
                     if wi_half > 0.0 {
                         let cell = 2.0 * s / rows as f32 * core::f32::consts::TAU / columns as f32;
                         let density = LOBES.density_about(wi, half).times(4.0 * wi_half * cell);
-                        sums.iter_mut().zip(density.0).for_each(|(sum, d)| *sum += f64::from(d));
+                        sums.iter_mut().zip(density.to_array()).for_each(|(sum, d)| *sum += f64::from(d));
                     }
                 }
             }
@@ -126,7 +126,8 @@ mod tests {
                 counts[i][j] += 1.0;
                 let again = LOBES.density_about(wi, half);
                 for c in 0..3 {
-                    assert!((density[c] - again[c]).abs() <= 2e-3 * density[c], "{density:?} {again:?}");
+                    let (density, again) = (density.channel(c), again.channel(c));
+                    assert!((density - again).abs() <= 2e-3 * density, "{density} {again}");
                 }
             }
             let fine = 64;
@@ -138,7 +139,7 @@ mod tests {
                         let u = (j as f32 + ((k % fine) as f32 + 0.5) / fine as f32) / 8.0 + 0.5;
                         let half = direction(cos, u.fract());
                         let wi_half = wi.dot(half).max(0.0);
-                        let density = LOBES.density_about(wi, half)[channel] * 4.0 * wi_half;
+                        let density = LOBES.density_about(wi, half).channel(channel) * 4.0 * wi_half;
                         expected += f64::from(density) * core::f64::consts::TAU / (64.0 * (fine * fine) as f64);
                     }
                     let expected = expected * f64::from(n);

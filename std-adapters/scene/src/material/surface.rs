@@ -1,6 +1,6 @@
 //! A surface as the path tracer reads it.
 
-use crate::colour::Colour;
+use crate::colour::PathColour;
 use crate::description::{Material, Roughness, Shape};
 use crate::error::SceneError;
 use crate::geometry::NONE;
@@ -30,7 +30,7 @@ pub(crate) fn within(v: Vec3, most: f32) -> bool {
     v.to_array().iter().all(|x| (0.0..=most).contains(x) && x.is_finite())
 }
 
-impl<C: Colour> Surface<C> {
+impl<C: PathColour> Surface<C> {
     /// Of shape `i`.
     pub(crate) fn new(shape: &Shape, i: usize) -> Result<Self, SceneError> {
         let (reflectance, roughness, conductor) = match shape.surface.material {

@@ -1,7 +1,7 @@
 //! Light that a diffuse surface scatters once: eight paths side by side, a step at a time.
 
 use crate::Scene;
-use crate::colour::Colour;
+use crate::colour::{Colour, PathColour};
 use crate::geometry::{Beam, NONE, Nearest, Point, Segments};
 use crate::lanes::{LANES, Vectors, in_memory};
 use crate::light::{Choices, Directions};
@@ -26,7 +26,7 @@ struct Place<C> {
 
 /// The paths of a block in a scene of diffuse surfaces, lit by lights that are sampled, without media, where
 /// paths end at the first scattering.
-pub(super) struct Direct<'a, C, const AUXILIARY: bool> {
+pub(super) struct Direct<'a, C: Colour, const AUXILIARY: bool> {
     pub(super) scene: &'a Scene<C>,
     pub(super) block: Block,
     pub(super) samples: &'a mut Samples<C>,
@@ -52,7 +52,7 @@ impl<C: Colour, const AUXILIARY: bool> Trace for Direct<'_, C, AUXILIARY> {
         let mut unpaired = [Draw::ZERO; LANES];
         let paired = AUXILIARY && !pairs.is_empty();
         let pairs = if paired { &mut pairs[numbers] } else { &mut unpaired[..count] };
-        let mut places = [None; LANES];
+        let mut places = [None::<Place<C::OnPath>>; LANES];
         let (mut at, mut normals) = (Vectors::ZERO, Vectors::ZERO);
         for (lane, plain) in plain.iter_mut().enumerate() {
             *plain = Draw::ZERO;
@@ -63,7 +63,7 @@ impl<C: Colour, const AUXILIARY: bool> Trace for Direct<'_, C, AUXILIARY> {
             }
             let (point, surface) = (scene.geometry.point(&ray, hit), &scene.surfaces[hit.shape as usize]);
             if surface.light != NONE && point.normal.dot(ray.direction) < 0.0 {
-                plain.f = surface.emission;
+                plain.f = C::kept(surface.emission);
             }
             if let Some(vertex) = Vertex::on::<false>(point, surface, ray.direction) {
                 at.set(lane, point.position);
@@ -89,7 +89,7 @@ impl<C: Colour, const AUXILIARY: bool> Trace for Direct<'_, C, AUXILIARY> {
             *pair = Draw::new(C::ZERO, C::ONE);
             let (Some(place), Some(lamp)) = (&places[lane], scene.lights.chosen(&choices, lane)) else { continue };
             if AUXILIARY {
-                pair.h[0] = choices.h(lamp, lane);
+                pair.h[0] = C::kept(choices.h(lamp, lane));
             }
             let towards = if radii[lane] > 0.0 {
                 to_balls.get(lane)
@@ -103,7 +103,7 @@ impl<C: Colour, const AUXILIARY: bool> Trace for Direct<'_, C, AUXILIARY> {
             }
             let f = place.reflectance * lamp.radiance;
             // As if nothing hid the light.
-            pair.f = f.times(cos * FRAC_1_PI * (towards.inverse_pdf / choices.probability(lane)));
+            pair.f = C::kept(f.times(cos * FRAC_1_PI * (towards.inverse_pdf / choices.probability(lane))));
             let (end, to) = lamp.segment(towards.distance);
             shadows.set(lane, &place.point.towards(towards.direction), end, to);
         }

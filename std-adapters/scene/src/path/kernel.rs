@@ -6,8 +6,9 @@
 //! becomes h_j·p_j/m: spectral multiple importance sampling (Wilkie et al. 2014) in running form.
 
 use crate::Scene;
-use crate::colour::Colour;
+use crate::colour::{Colour, PathColour};
 use crate::geometry::{Beam, NONE, Nearest};
+
 use crate::medium::{pass, transmittance};
 use crate::path::Samples;
 use crate::path::record::Record;
@@ -15,7 +16,7 @@ use crate::path::vertex::Vertex;
 use crate::planted::planted;
 use crate::random::Random;
 use core::ops::Range;
-use ratiocv_core::Draw;
+use ratiocv_core::{Draw, Lanes};
 use ratiocv_simd::Work;
 
 /// What to trace.
@@ -51,7 +52,7 @@ pub(super) fn each_beam<C: Colour>(
 /// The paths of a block, in a kernel that has what the scene needs.
 pub(super) struct Paths<
     'a,
-    C,
+    C: Colour,
     const AUXILIARY: bool,
     const MEDIA: bool,
     const CONDUCTORS: bool,
@@ -113,8 +114,8 @@ impl<
     fn sky(&mut self, numbers: Range<usize>) {
         let Samples { plain, pairs, .. } = &mut *self.samples;
         let mut record = Record::<C, AUXILIARY>::new(&self.scene.terms, pairs, numbers.start);
-        record.scattering(1, self.scene.environment, C::ONE);
-        let light = record.end(C::ONE);
+        record.scattering(1, self.scene.environment, <C::OnPath>::ONE);
+        let light = record.end(<C::OnPath>::ONE);
         plain[numbers.clone()].fill(light);
         if AUXILIARY {
             pairs.repeat(numbers.start);
@@ -131,8 +132,8 @@ impl<
         let mut hit = scene.geometry.seen_by(&ray, seen, lane);
         let channel = if C::LANES > 1 && (MEDIA || CONDUCTORS) { random.below(C::LANES) } else { 0 };
         // f of the path so far over its density M, and P_j/M.
-        let mut throughput = C::ONE;
-        let mut h = C::ONE;
+        let mut throughput = <C::OnPath>::ONE;
+        let mut h = <C::OnPath>::ONE;
         // The density of the ray's direction, given what came before.
         let mut density = 0.0;
         let mut depth = 1;
@@ -157,7 +158,7 @@ impl<
             if in_medium && (SCATTERING || depth == 1) {
                 record.dark(depth, h);
             } else if SCATTERING || depth == 1 {
-                let mut radiance = C::ZERO;
+                let mut radiance = <C::OnPath>::ZERO;
                 let mut weight = 1.0;
                 match &found {
                     Some((point, surface)) => {
@@ -189,7 +190,7 @@ impl<
             };
             if LIGHTS {
                 let place = (vertex.point.position, vertex.facing::<CONDUCTORS, MEDIA>());
-                let (mut f, mut h_light) = (C::ZERO, C::ONE);
+                let (mut f, mut h_light) = (<C::OnPath>::ZERO, <C::OnPath>::ONE);
                 if let Some(chosen) = scene.lights.choose::<AUXILIARY>(place, random.uniform(), weights) {
                     h_light = chosen.h;
                     let light = &scene.lights.lights[chosen.light];
@@ -231,7 +232,7 @@ impl<
             h = h * ratio;
             let mut greatest = throughput.largest();
             if greatest.is_nan() || greatest <= 0.0 {
-                h = planted!("h_zeroed_below_the_horizon": h, C::ZERO);
+                h = planted!("h_zeroed_below_the_horizon": h, <C::OnPath>::ZERO);
                 break;
             }
             depth += 1;

@@ -68,9 +68,13 @@ fn everything<C: Colour>() -> Kernel<C> {
 /// all of them again, for minutes. It also keeps [`Colour`] from being implemented elsewhere.
 pub trait Traced: Sized {
     /// The kernel that the scene needs.
-    fn kernel(needs: &Needs) -> Kernel<Self>;
+    fn kernel(needs: &Needs) -> Kernel<Self>
+    where
+        Self: Colour;
     /// The kernel that leaves nothing out.
-    fn everything() -> Kernel<Self>;
+    fn everything() -> Kernel<Self>
+    where
+        Self: Colour;
 }
 
 macro_rules! traced {

@@ -1,6 +1,6 @@
 //! Where a path scatters, and by which law.
 
-use crate::colour::Colour;
+use crate::colour::PathColour;
 use crate::frame::{Frame, cosine_direction, uniform_direction};
 use crate::geometry::Point;
 use crate::light::Facing;
@@ -35,7 +35,7 @@ pub(super) struct Scattered<C> {
     pub(super) density: C,
 }
 
-impl<C: Colour> Vertex<C> {
+impl<C: PathColour> Vertex<C> {
     /// Of a medium, where a ray in `direction` came to.
     #[inline(always)]
     pub(super) const fn inside(position: Vec3, direction: Vec3) -> Self {

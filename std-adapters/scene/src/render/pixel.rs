@@ -4,9 +4,9 @@ use crate::colour::Colour;
 use crate::path::Samples;
 use crate::planted::planted;
 use crate::render::method::{OnPixel, Term};
-use ratiocv_core::moments::{Mean, Merge, Moments, Save, Variance};
+use ratiocv_core::moments::{Accumulate, Mean, Merge, Moments, Save, Variance};
 use ratiocv_core::{Draw, Estimate, Estimator, Flags, Integrals, Plain};
-use ratiocv_simd::add_batch;
+use ratiocv_simd::{Work, add_batch, at_best_level};
 
 /// Parts of a pixel's samples that the jackknife leaves out in turn.
 const GROUPS: usize = 8;
@@ -68,11 +68,8 @@ impl<C: Colour, M: Term<C>> Part<C, M> {
 
     /// Adds samples: plain light, and `pairs` of each term of which `distinct` are.
     fn add<'a>(&mut self, plain: &[Draw<C, 0>], distinct: usize, pairs: impl Fn(usize) -> &'a [Draw<C>]) {
-        add_batch(&mut self.plain, plain);
         self.distinguish(distinct);
-        for (i, term) in self.terms[..self.distinct].iter_mut().enumerate() {
-            add_batch(term, pairs(i));
-        }
+        at_best_level(Add { part: self, plain, pairs });
     }
 
     fn merge(&mut self, later: &Self) {
@@ -89,6 +86,25 @@ impl<C: Colour, M: Term<C>> Part<C, M> {
         self.distinguish(self.terms.len());
         for term in &mut self.terms {
             term.words(each);
+        }
+    }
+}
+
+/// Samples on their way into a part.
+struct Add<'a, C: Colour, M, F> {
+    part: &'a mut Part<C, M>,
+    plain: &'a [Draw<C, 0>],
+    pairs: F,
+}
+
+impl<'pairs, C: Colour, M: Term<C>, F: Fn(usize) -> &'pairs [Draw<C>]> Work for Add<'_, C, M, F> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Part { plain, terms, distinct } = self.part;
+        plain.add_batch(self.plain);
+        for (i, term) in terms.iter_mut().enumerate().take(*distinct) {
+            term.add_batch((self.pairs)(i));
         }
     }
 }
