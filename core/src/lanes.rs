@@ -103,11 +103,9 @@ pub struct Single<T>(pub T);
 
 impl<T: Copy + Debug> PerLane<T> for Single<T> {
     const WIDTH: usize = 1;
-    #[inline(always)]
     fn from_fn(mut lane: impl FnMut(usize) -> T) -> Self {
         Self(lane(0))
     }
-    #[inline(always)]
     fn get(&self, lane: usize) -> T {
         [self.0][lane]
     }
@@ -115,11 +113,9 @@ impl<T: Copy + Debug> PerLane<T> for Single<T> {
 
 impl<T, P: PerLane<T>, const K: usize> PerLane<T> for [P; K] {
     const WIDTH: usize = K * P::WIDTH;
-    #[inline(always)]
     fn from_fn(mut lane: impl FnMut(usize) -> T) -> Self {
         core::array::from_fn(|pack| P::from_fn(|i| lane(pack * P::WIDTH + i)))
     }
-    #[inline(always)]
     fn get(&self, lane: usize) -> T {
         self[lane / P::WIDTH].get(lane % P::WIDTH)
     }

@@ -126,15 +126,12 @@ impl<V, B: Kernel> Blocked<V, B> {
         let mut empty = B::empty(&self.state);
         empty.begin(0, &first.draw(0));
         empty.begin(1, &first.draw(1));
-        let mut sums = empty.beside::<P>();
-        add_run::<D, B, R, P>(&mut sums, 0, &first);
+        let empty = empty.beside::<P>();
+        let mut sums = empty;
+        add_run::<D, B, R, P>(&mut sums, &empty, 0, &first);
         let mut count = BLOCK;
-        // Made for the second run: most batches of a renderer have but one.
-        let mut beside = None;
         for run in runs {
-            let mut of_run = *beside.get_or_insert_with(|| empty.beside::<P>());
-            add_run::<D, B, R, P>(&mut of_run, count, &run);
-            B::fold_beside(&mut sums, &of_run);
+            add_run::<D, B, R, P>(&mut sums, &empty, count, &run);
             count += BLOCK;
         }
         self.absorb_parts::<P>(&sums, count as u64);

@@ -37,17 +37,22 @@ impl<V: Lanes> Run<Draw<V>> for (&[V; BLOCK], &[V; BLOCK]) {
     }
 }
 
-/// Adds a run, whose first draw is the `start`-th of the block.
+/// Adds the sums of a run, whose first draw is the `start`-th of the block, to those of the runs before.
 #[inline(always)]
-pub(crate) fn add_run<D, B: Takes<D>, R: Run<D>, const P: usize>(sums: &mut B::Beside<P>, start: usize, run: &R) {
+pub(crate) fn add_run<D, B: Takes<D>, R: Run<D>, const P: usize>(
+    sums: &mut B::Beside<P>,
+    empty: &B::Beside<P>,
+    start: usize,
+    run: &R,
+) {
     // Seen from outside, sums are in memory before and after the loop. Otherwise what becomes of them in
     // `f64` halves the width of the vectors that the compiler makes of the loop, or prevents them: 12
     // instructions per sample and channel of co-moments, not 3.
-    let mut of_run = *black_box(&*sums);
+    let mut of_run = *black_box(empty);
     for row in 0..BLOCK / P {
         let draws: [D; P] = core::array::from_fn(|column| run.draw(P * row + column));
         B::add_beside(&mut of_run, start + P * row, &draws);
     }
-    *sums = of_run;
+    B::fold_beside(sums, &of_run);
     black_box(sums);
 }

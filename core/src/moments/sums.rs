@@ -51,7 +51,7 @@ impl<W: Lanes, const K: usize> Default for SumsState<W, K> {
 /// as they are, f and h alike, without a shuffle.
 #[derive(Clone, Copy, Debug)]
 pub struct SumsBeside<V, const K: usize, const P: usize> {
-    shift: [Draw<V, K>; P],
+    shift: Draw<V, K>,
     sum: [Draw<V, K>; P],
 }
 
@@ -76,11 +76,11 @@ impl<V: Lanes, const K: usize> Kernel for SumsBlock<V, K> {
     }
     #[inline(always)]
     fn beside<const P: usize>(&self) -> SumsBeside<V, K, P> {
-        SumsBeside { shift: [self.shift; P], sum: [self.sum; P] }
+        SumsBeside { shift: self.shift, sum: [self.sum; P] }
     }
     #[inline(always)]
     fn part<const P: usize>(parts: &SumsBeside<V, K, P>, part: usize) -> Self {
-        Self { shift: parts.shift[part], sum: parts.sum[part] }
+        Self { shift: parts.shift, sum: parts.sum[part] }
     }
     #[inline(always)]
     fn fold_beside<const P: usize>(parts: &mut SumsBeside<V, K, P>, others: &SumsBeside<V, K, P>) {
@@ -103,8 +103,9 @@ impl<V: Lanes, const K: usize> Takes<Draw<V, K>> for SumsBlock<V, K> {
     }
     #[inline(always)]
     fn add_beside<const P: usize>(parts: &mut SumsBeside<V, K, P>, _: usize, draws: &[Draw<V, K>; P]) {
-        for ((sum, shift), draw) in parts.sum.iter_mut().zip(&parts.shift).zip(draws) {
-            *sum = sum.zip(draw.zip(*shift, V::sub), V::add);
+        let shift = parts.shift;
+        for (sum, draw) in parts.sum.iter_mut().zip(draws) {
+            *sum = sum.zip(draw.zip(shift, V::sub), V::add);
         }
     }
 }
