@@ -19,9 +19,12 @@ pub fn read(scene: &str, lenient: bool, notes: &mut dyn Write) -> Result<(String
         None => Description::read(Path::new(scene), leniency),
     }
     .map_err(|error| {
-        let remedy = match error.is_unsupported() {
-            true => "--lenient leaves out what is not supported",
-            false => "give a scene file, or a built-in scene (ratiocv list)",
+        let remedy = if error.is_unsupported() {
+            "--lenient leaves out what is not supported"
+        } else if Path::new(scene).exists() {
+            "correct the scene file; the built-in scenes are examples (ratiocv list)"
+        } else {
+            "give a scene file, or a built-in scene (ratiocv list)"
         };
         Fault::data(error.to_string(), remedy)
     })?;

@@ -88,9 +88,9 @@ fn every_estimator_has_a_name() {
 #[test]
 fn bad_scenes_and_names_are_errors_that_say_where() {
     let out = path("e.png");
-    fails_with(&render(&["S9", "--out", &out]), 1, &["S9: cannot be read", "ratiocv list"]);
+    fails_with(&render(&["S9", "--out", &out]), 1, &["S9: cannot be read", "give a scene file"]);
     let broken = scene("broken.xml", |xml| xml.replacen("</scene>", "", 1));
-    fails_with(&render(&[&broken, "--out", &out]), 1, &["broken.xml"]);
+    fails_with(&render(&[&broken, "--out", &out]), 1, &["broken.xml", "correct the scene file"]);
     let unknown = scene("unknown.xml", |xml| xml.replacen("type=\"diffuse\"", "type=\"plastic\"", 1));
     fails_with(&render(&[&unknown, "--out", &out]), 1, &["unknown.xml, line ", "plastic", "diffuse", "--lenient"]);
     let run = render(&[&unknown, "--lenient", "--spp", "1", "--out", &out]);
