@@ -19,7 +19,7 @@ pub trait Colour: Lanes<Scalar = f32> + Traced {
 
 /// The colours that a path is traced in: one SIMD register each.
 ///
-/// *Implemented by* `Spectrum<f32, 4>`, RGB and blue once more, and by `f32`; *called by* the path tracer.
+/// *Implemented by* [`F32x4`], RGB and blue once more, and by `f32`; *called by* the path tracer.
 pub trait PathColour: Lanes<Scalar = f32> {
     /// Channels that differ.
     const CHANNELS: usize;

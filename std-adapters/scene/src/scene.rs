@@ -10,6 +10,7 @@ use crate::material::{Surface, within};
 use crate::medium::Filled;
 use crate::needs::{Needs, Options};
 use crate::path::{BLOCK, Block, Kernel, Samples, Term, Terms};
+use crate::planted::planted;
 use ratiocv_core::Lanes;
 
 /// Where paths without a limit begin to end by Russian roulette if the description says nothing: between
@@ -146,7 +147,7 @@ impl<C: Colour> Scene<C> {
         if MEDIA {
             // A loop, because `any` would be a call, and not in lanes.
             for medium in &self.media {
-                is_sky = is_sky && !medium.is_met_by(beam);
+                is_sky = is_sky && planted!("sky_in_media": !medium.is_met_by(beam), true);
             }
         }
         is_sky

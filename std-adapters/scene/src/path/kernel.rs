@@ -8,7 +8,6 @@
 use crate::Scene;
 use crate::colour::{Colour, PathColour};
 use crate::geometry::{Beam, NONE, Nearest};
-
 use crate::medium::{pass, transmittance};
 use crate::path::Samples;
 use crate::path::record::Record;
