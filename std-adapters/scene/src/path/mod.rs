@@ -3,6 +3,7 @@
 mod direct;
 mod kernel;
 mod kernels;
+mod pairs;
 mod record;
 mod samples;
 mod terms;

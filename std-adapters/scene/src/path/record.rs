@@ -1,7 +1,8 @@
 //! Where the light of one path goes.
 
 use crate::colour::Colour;
-use crate::path::samples::{BLOCK, Pairs};
+use crate::path::pairs::Pairs;
+use crate::path::samples::BLOCK;
 use crate::path::terms::{Paired, Terms};
 use crate::planted::planted;
 use ratiocv_core::{Draw, Lanes};

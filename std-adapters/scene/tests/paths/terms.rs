@@ -41,6 +41,7 @@ fn the_sky_is_what_it_is() {
             let f = if paired && term == 0 { sky } else { nothing };
             assert_eq!(samples.pairs(term), [Draw::new(f, sky); 13], "{name}, term {term}");
         }
+        assert_eq!(samples.pairs(scene.terms().len()), []);
     }
 }
 
