@@ -73,10 +73,11 @@ impl Add for Scaled {
     }
 }
 
-/// A number of which no product or quotient of three leaves the range.
+/// Whether y/x·h stays in the range, and is no division by 0, in whatever order it is worked out.
 #[inline(always)]
-pub(crate) fn is_ordinary(x: f64) -> bool {
-    (1e-90..1e90).contains(&x.abs())
+pub(crate) fn are_ordinary(y: f64, x: f64, h: f64) -> bool {
+    let is_ordinary = |x: f64| (1e-90..1e90).contains(&x.abs());
+    (is_ordinary(y) || y == 0.0) && is_ordinary(x) && is_ordinary(h)
 }
 
 /// y/x·h, rounded as if the exponent range had no end: each order of the two operations over- or
@@ -87,7 +88,7 @@ pub(crate) fn is_ordinary(x: f64) -> bool {
 pub(crate) fn quotient_times(y: f64, x: f64, h: f64) -> f64 {
     if x == h {
         y
-    } else if (is_ordinary(y) || y == 0.0) && is_ordinary(x) && is_ordinary(h) {
+    } else if are_ordinary(y, x, h) {
         // Nothing leaves the range: the same bits for a tenth of the work.
         y / x * h
     } else {

@@ -181,10 +181,7 @@ impl<W: Lanes<Scalar = f64>> State for ThirdState<W> {
         };
     }
     fn channel(&self, channel: usize) -> ThirdState<f64> {
-        ThirdState {
-            anchor: self.anchor.map(|lanes| lanes.get(channel)),
-            central: self.central.map(|lanes| lanes.get(channel)),
-        }
+        ThirdState { anchor: self.anchor.channel(channel), central: self.central.map(|lanes| lanes.get(channel)) }
     }
     fn words(&mut self, each: &mut dyn FnMut(&mut u64)) {
         save::draw(&mut self.anchor, each);

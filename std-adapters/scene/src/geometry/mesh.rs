@@ -137,6 +137,7 @@ impl Meshes {
     }
 
     /// The nearest triangle before `t`, and its distance.
+    // The ray by value: one whose address is taken lives in memory, in all kernels and scenes without meshes too.
     #[inline(never)]
     pub(super) fn closest<const CAMERA: bool>(&self, ray: Ray, from: u32, t: f32) -> Option<(f32, u32)> {
         let least = Self::least(&ray, from);
