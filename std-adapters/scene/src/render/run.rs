@@ -183,7 +183,8 @@ impl<'a> Render<'a> {
     }
 
     /// Goes on from the file `path`: the same image, to the bit, as without a pause. It must be of the same scene,
-    /// method, seed and kind of budget.
+    /// method, seed and kind of budget. Of a render that was finished with a number of samples that 64 does not divide,
+    /// the rest has other random numbers than in one go, and is as good.
     #[must_use]
     pub fn resume(mut self, path: impl Into<PathBuf>) -> Self {
         self.resume = Some(path.into());
